@@ -9,8 +9,9 @@ use std::fs::File;
 use std::io::{Read, Write};
 use std::path::Path;
 
-/// Most bytes of a file.
+/// Most bytes of a file: of policies and demonstrations, and of checkpoints with all the steps that are learnt from again.
 pub(crate) const MAX_BYTES: u64 = 64 << 20;
+pub(crate) const MAX_CHECKPOINT_BYTES: u64 = 4 << 30;
 /// The card's name in the metadata. One name alone, as metadata have no order and equal numbers are to make equal files.
 const CARD: &str = "robohive";
 
@@ -96,8 +97,8 @@ impl Numbers<'_> {
     }
 }
 
-/// Writes a file, which has its name only when it is complete: whatever ends the process, there is the file as it was before or as it is now.
-pub(crate) fn write(path: &Path, card: String, entries: &[Entry<'_>]) -> Result<(), PolicyError> {
+/// Writes a file of at most `most` bytes, which has its name only when it is complete: whatever ends the process, there is the file as it was before or as it is now.
+pub(crate) fn write(path: &Path, card: String, entries: &[Entry<'_>], most: u64) -> Result<(), PolicyError> {
     let parts: Vec<_> = entries.iter().map(|entry| (entry, entry.numbers.bytes())).collect();
     let content = |error: safetensors::SafeTensorError| PolicyError::content(error.to_string()).within(path);
     let views = parts.iter().map(|(entry, bytes)| {
@@ -107,10 +108,10 @@ pub(crate) fn write(path: &Path, card: String, entries: &[Entry<'_>]) -> Result<
     let views = views.collect::<Result<Vec<_>, _>>().map_err(content)?;
     let metadata = HashMap::from([(CARD.to_owned(), card)]);
     let bytes = safetensors::serialize(views, Some(metadata)).map_err(content)?;
-    if bytes.len() as u64 > MAX_BYTES {
+    if bytes.len() as u64 > most {
         let message = format!(
             "it would have more than {} MiB: make hidden layers narrower, or ask for fewer demonstrations",
-            MAX_BYTES >> 20
+            most >> 20
         );
         return Err(PolicyError::content(message).within(path));
     }
@@ -124,14 +125,14 @@ pub(crate) fn write(path: &Path, card: String, entries: &[Entry<'_>]) -> Result<
     keep().map_err(|error| PolicyError::File { path: path.into(), error })
 }
 
-/// The bytes of a file.
-pub(crate) fn read(path: &Path) -> Result<Vec<u8>, PolicyError> {
+/// The bytes of a file that has at most `most`.
+pub(crate) fn read(path: &Path, most: u64) -> Result<Vec<u8>, PolicyError> {
     let fail = |error| PolicyError::File { path: path.into(), error };
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(fail)?;
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(fail)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        let message = format!("it has more than {} MiB, and no policy has", MAX_BYTES >> 20);
+    file.take(most + 1).read_to_end(&mut bytes).map_err(fail)?;
+    if bytes.len() as u64 > most {
+        let message = format!("it has more than {} MiB, and no file of its kind has", most >> 20);
         return Err(PolicyError::content(message).within(path));
     }
     Ok(bytes)
@@ -171,11 +172,19 @@ impl<'a> Archive<'a> {
         &self.card
     }
 
+    /// How many numbers a tensor has.
+    pub fn numbers(&self, name: &str) -> Result<usize, PolicyError> {
+        Ok(self.tensor(name)?.shape().iter().product())
+    }
+
+    fn tensor(&self, name: &str) -> Result<TensorView<'_>, PolicyError> {
+        self.tensors.tensor(name).map_err(|_| PolicyError::content(format!("it has no tensor {name:?}")))
+    }
+
     /// Fills all entries.
     pub fn fill(&self, entries: Vec<Entry<'_>>) -> Result<(), PolicyError> {
         for Entry { name, shape, mut numbers } in entries {
-            let tensor = self.tensors.tensor(&name);
-            let tensor = tensor.map_err(|_| PolicyError::content(format!("it has no tensor {name:?}")))?;
+            let tensor = self.tensor(&name)?;
             if tensor.shape() != shape || tensor.dtype() != numbers.kind() {
                 let message = format!(
                     "the tensor {name:?} is {:?} of {:?}, and {:?} of {shape:?} is needed",

@@ -40,6 +40,7 @@ pub struct Trained {
     actor: Actor,
     card: Card,
     tape: Tape,
+    chosen: Vec<f32>,
 }
 
 impl Policy {
@@ -59,7 +60,7 @@ impl Policy {
     /// The file cannot be read, or holds no policy that is understood.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, PolicyError> {
         let path = path.as_ref();
-        let bytes = archive::read(path)?;
+        let bytes = archive::read(path, archive::MAX_BYTES)?;
         Self::parse(&bytes).map_err(|error| error.within(path))
     }
 
@@ -82,7 +83,7 @@ impl Policy {
         let archive = Archive::parse(bytes)?;
         let card = Card::of(&archive)?;
         let actor = card.actor(&archive)?;
-        Ok(Policy::Trained(Box::new(Trained { actor, card, tape: Tape::default() })))
+        Ok(Policy::Trained(Box::new(Trained { actor, card, tape: Tape::default(), chosen: Vec::new() })))
     }
 
     /// The policy at the start of an episode: random actions are those of its seed.
@@ -156,8 +157,10 @@ impl Trained {
             );
             return Err(PolicyError::Foreign { id: env.spec().id.clone(), message });
         }
-        self.actor.means(&self.actor.normalized(env.observation()), &mut self.tape);
-        action.iter_mut().zip(self.tape.output()).for_each(|(to, from)| *to = f64::from(*from));
+        self.actor.forward(&self.actor.normalized(env.observation()), &mut self.tape);
+        self.chosen.resize(action.len(), 0.0);
+        self.actor.mean(self.tape.output(), &mut self.chosen);
+        action.iter_mut().zip(&self.chosen).for_each(|(to, from)| *to = f64::from(*from));
         Ok(())
     }
 }

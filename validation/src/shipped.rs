@@ -63,7 +63,7 @@ fn row(id: &str) -> Result<Row, String> {
 /// The command that trains a policy, whose settings are those to begin with.
 fn command(trained: &Trained) -> Result<String, String> {
     let card = trained.card();
-    let known = [Settings::npg(), Settings::ppo()];
+    let known = [Settings::npg(), Settings::ppo(), Settings::sac()];
     let settings = known.iter().find(|settings| **settings == card.settings);
     let settings = settings.ok_or("its settings are none that `robohive train` has by itself")?;
     let algorithm = settings.algorithm.name();

@@ -2,7 +2,8 @@
 //! one that was never interrupted; a policy holds what acts.
 
 use super::actor::Actor;
-use super::learner::{Learner, Settings};
+use super::learner::Learner;
+use super::settings::Settings;
 use crate::archive::{self, Archive};
 use crate::error::PolicyError;
 use env::{Env, Rng};
@@ -68,7 +69,7 @@ impl Learner {
     /// The file cannot be written.
     pub fn save(&mut self, id: &str, path: &Path) -> Result<(), PolicyError> {
         let card = text(&self.card(id))?;
-        archive::write(path, card, &self.entries())
+        archive::write(path, card, &self.entries(), archive::MAX_CHECKPOINT_BYTES)
     }
 
     /// Writes the policy alone, which [`Policy::open`](crate::Policy::open) reads.
@@ -77,7 +78,7 @@ impl Learner {
     /// The file cannot be written.
     pub fn save_policy(&mut self, id: &str, path: &Path) -> Result<(), PolicyError> {
         let card = text(&self.card(id))?;
-        archive::write(path, card, &self.actor.entries())
+        archive::write(path, card, &self.actor.entries(), archive::MAX_BYTES)
     }
 
     /// Goes on from what [`Learner::save`] wrote, on environments like `env`.
@@ -85,7 +86,7 @@ impl Learner {
     /// # Errors
     /// The file cannot be read, holds no checkpoint, or one of another environment or version.
     pub fn resume(path: &Path, env: &Env) -> Result<Self, PolicyError> {
-        let bytes = archive::read(path)?;
+        let bytes = archive::read(path, archive::MAX_CHECKPOINT_BYTES)?;
         let fill = || {
             let archive = Archive::parse(&bytes)?;
             let card = Card::of(&archive)?;
@@ -97,7 +98,7 @@ impl Learner {
                 return Err(PolicyError::content(message));
             }
             let mut learner = Learner::new(card.settings, card.seed, env);
-            archive.fill(learner.entries())?;
+            learner.fill(&archive)?;
             Ok(learner)
         };
         fill().map_err(|error: PolicyError| error.within(path))
@@ -123,7 +124,8 @@ impl Card {
     /// Number of parameters of its policy's network; none where a width is zero, or there are more than can be counted.
     fn parameters(&self) -> Option<usize> {
         let [hidden, values] = &self.settings.hidden;
-        let widths = [&[self.observed], &hidden[..], &[self.actions]].concat();
+        let outputs = self.settings.head().outputs(self.actions)?;
+        let widths = [&[self.observed], &hidden[..], &[outputs]].concat();
         if widths.contains(&0) || values.contains(&0) {
             return None;
         }
@@ -146,9 +148,9 @@ impl Card {
 
     /// The policy of a file.
     pub(crate) fn actor(&self, archive: &Archive<'_>) -> Result<Actor, PolicyError> {
-        let Settings { hidden: [hidden, _], activation, log_std: [log_std, _], .. } = &self.settings;
+        let (Settings { hidden: [hidden, _], activation, .. }, head) = (&self.settings, self.settings.head());
         let sizes = [self.observed, self.actions];
-        let mut actor = Actor::new(sizes, hidden, *activation, *log_std, &mut Rng::pcg64(0_u64));
+        let mut actor = Actor::new(sizes, hidden, *activation, head, &mut Rng::pcg64(0_u64));
         archive.fill(actor.entries())?;
         Ok(actor)
     }

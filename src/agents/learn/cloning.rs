@@ -18,10 +18,10 @@ pub fn update(
 ) -> Update {
     let (actions, parameters) = (actor.actions(), actor.net.parameters());
     let mut tape = Tape::default();
-    actor.means(&shown.input, &mut tape);
+    actor.forward(&shown.input, &mut tape);
     let (old_means, old_log_std) = (tape.output().to_vec(), actor.parts().1.to_vec());
     fit.least_squares(&actor.net, &mut actor.parameters, adam, [&shown.input, &shown.actions], rng);
-    actor.means(&shown.input, &mut tape);
+    actor.forward(&shown.input, &mut tape);
     let log_std = log_deviations(tape.output(), &shown.actions, actions);
     actor.parameters[parameters..].copy_from_slice(&log_std);
     actor.limit();
@@ -46,6 +46,7 @@ fn log_deviations(means: &[f32], actions: &[f32], width: usize) -> Vec<f32> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::actor::Head;
     use super::*;
     use crate::nets::Activation;
 
@@ -57,13 +58,13 @@ mod tests {
         let bent = |x: f32| x * x - 0.5 * x;
         let actions = input.iter().map(|x| bent(*x) + 0.2 * rng.standard_normal() as f32).collect();
         let shown = Batch { input, actions, ..Batch::default() };
-        let mut actor = Actor::new([1, 1], &[16, 16], Activation::Tanh, 0.0, &mut rng);
-        actor.least_log_std = -3.0;
+        let head = Head::Gaussian { log_std: 0.0, least: -3.0 };
+        let mut actor = Actor::new([1, 1], &[16, 16], Activation::Tanh, head, &mut rng);
         let mut adam = Adam::new(actor.parameters.len());
         let fit = Fit { epochs: 40, batch: 64, rate: 3e-3, longest: 10.0 };
         let done = update(&fit, &mut actor, &mut adam, &shown, &mut rng);
         let (places, mut tape) = ([-0.8, -0.2, 0.3, 0.9], Tape::default());
-        actor.means(&places, &mut tape);
+        actor.forward(&places, &mut tape);
         for (x, mean) in places.iter().zip(tape.output()) {
             assert!((mean - bent(*x)).abs() < 0.05, "{x}: {mean}");
         }

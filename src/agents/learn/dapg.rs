@@ -38,6 +38,7 @@ pub fn update(dapg: &Dapg, iteration: u64, actor: &mut Actor, batch: &Batch, sho
 
 #[cfg(test)]
 mod tests {
+    use super::super::actor::Head;
     use super::*;
     use crate::nets::{Activation, Tape};
     use random::Generator;
@@ -53,11 +54,12 @@ mod tests {
         let shown = Batch { actions: vec![0.4; shown.len()], input: shown, ..Batch::default() };
         let cloning = Fit { epochs: 0, batch: 1, rate: 1e-3, longest: 1.0 };
         let dapg = Dapg { step: 0.05, weight: 1.0, decay: 0.5, cloning };
-        let actor = Actor::new([1, 1], &[8], Activation::Tanh, -0.5, &mut Generator::pcg64(1_u64));
+        let head = Head::Gaussian { log_std: -0.5, least: f32::NEG_INFINITY };
+        let actor = Actor::new([1, 1], &[8], Activation::Tanh, head, &mut Generator::pcg64(1_u64));
         let moved = |iteration: u64| {
             let (mut actor, mut tape) = (actor.clone(), Tape::default());
             let update = update(&dapg, iteration, &mut actor, &batch, &shown);
-            actor.means(&shown.input, &mut tape);
+            actor.forward(&shown.input, &mut tape);
             assert!(update.divergence > 0.2 * dapg.step && update.divergence < dapg.step, "{update:?}");
             tape.output().iter().sum::<f32>() / 400.0
         };

@@ -183,7 +183,7 @@ impl Demonstrations {
             played: self.played,
         };
         let label = serde_json::to_string(&label).map_err(|error| PolicyError::content(error.to_string()))?;
-        archive::write(path, label, &self.entries(steps))
+        archive::write(path, label, &self.entries(steps), archive::MAX_BYTES)
     }
 
     /// Reads what [`Demonstrations::save`] wrote of an environment like `env`.
@@ -191,7 +191,7 @@ impl Demonstrations {
     /// # Errors
     /// The file cannot be read, holds no demonstrations, or some of another environment.
     pub fn open(env: &Env, path: &Path) -> Result<Self, PolicyError> {
-        let bytes = archive::read(path)?;
+        let bytes = archive::read(path, archive::MAX_BYTES)?;
         let fill = || {
             let archive = Archive::parse(&bytes)?;
             let wrong = |error| PolicyError::content(format!("its card is not understood: {error}"));

@@ -1,82 +1,26 @@
 //! A training in progress: everything that decides how it goes on.
 
 use super::actor::Actor;
-use super::advantage::Horizon;
-use super::batch::Batch;
 use super::cloning;
-use super::critic::Critic;
-use super::dapg::{self, Dapg};
+use super::dapg::Dapg;
 use super::demonstrations::Demonstrations;
-use super::fit::Fit;
-use super::npg::{self, Npg};
-use super::ppo::{self, Ppo, Update};
+use super::on_policy::OnPolicy;
+use super::ppo::Update;
 use super::rollout::{Choice, Collector, Episode};
-use crate::archive::{Entry, Numbers};
+use super::sac::Soft;
+use super::settings::{Algorithm, Settings};
+use crate::archive::{self, Archive, Entry, Numbers};
 use crate::error::PolicyError;
-use crate::nets::{Activation, Adam};
+use crate::nets::Adam;
 use env::episode::{Evaluation, evaluate};
 use env::{Env, Rng};
 use random::SeedSequence;
-use serde::{Deserialize, Serialize};
-use std::thread;
 
 /// What the numbers that are drawn for an iteration are for. Those of episodes have keys of another length.
 const START: u64 = 0;
 const POLICY: u64 = 1;
 const VALUES: u64 = 2;
 const CLONE: u64 = 3;
-
-/// How a policy is improved.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
-#[non_exhaustive]
-#[serde(rename_all = "snake_case")]
-pub enum Algorithm {
-    /// Proximal policy optimisation.
-    Ppo(Ppo),
-    /// The natural policy gradient.
-    Npg(Npg),
-    /// Behaviour cloning: episodes are played to see what became of it, and only demonstrations are learnt from.
-    Cloning(Fit),
-    /// The natural policy gradient with demonstrations.
-    Dapg(Dapg),
-}
-
-impl Algorithm {
-    /// Its name in short.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Algorithm::Ppo(_) => "ppo",
-            Algorithm::Npg(_) => "npg",
-            Algorithm::Cloning(_) => "bc",
-            Algorithm::Dapg(_) => "dapg",
-        }
-    }
-
-    /// Whether it learns from demonstrations.
-    pub fn needs_demonstrations(&self) -> bool {
-        matches!(self, Algorithm::Cloning(_) | Algorithm::Dapg(_))
-    }
-}
-
-/// Settings of a training.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Settings {
-    /// How the policy is improved.
-    pub algorithm: Algorithm,
-    /// Episodes of an iteration.
-    pub episodes: u64,
-    /// How far rewards count.
-    pub horizon: Horizon,
-    /// Widths of the hidden layers of the policy, and of the value function.
-    pub hidden: [Vec<usize>; 2],
-    /// What follows hidden layers.
-    pub activation: Activation,
-    /// Logarithm of the deviations at first, and their least.
-    pub log_std: [f32; 2],
-    /// How the value function is fitted.
-    pub fit: Fit,
-}
 
 /// A training in progress.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,9 +29,7 @@ pub struct Learner {
     pub(super) seed: u64,
     /// The policy.
     pub actor: Actor,
-    /// The value function.
-    pub critic: Critic,
-    adam: Adam,
+    method: Method,
     demonstrations: Option<Demonstrations>,
     /// Iterations, episodes and steps so far.
     pub iterations: u64,
@@ -95,6 +37,15 @@ pub struct Learner {
     pub episodes: u64,
     /// Steps of the environments.
     pub samples: u64,
+}
+
+/// What improves the policy.
+#[derive(Clone, Debug, PartialEq)]
+enum Method {
+    /// Its own latest episodes.
+    OnPolicy(Box<OnPolicy>),
+    /// All that is remembered.
+    Soft(Box<Soft>),
 }
 
 /// What an iteration did.
@@ -119,23 +70,25 @@ impl Learner {
     pub fn new(settings: Settings, seed: u64, env: &Env) -> Self {
         let mut rng = generator(seed, &[START]);
         let (observed, actions) = (env.observation().len(), env.action_len());
-        let Settings { hidden: [policy, values], activation, log_std: [log_std, least], .. } = &settings;
-        let mut actor = Actor::new([observed, actions], policy, *activation, *log_std, &mut rng);
-        actor.least_log_std = *least;
-        let critic = Critic::new(observed, values, *activation, &mut rng);
-        let adam = Adam::new(actor.parameters.len());
+        let actor = Actor::new(
+            [observed, actions],
+            &settings.hidden[0],
+            settings.activation,
+            settings.head(),
+            &mut rng,
+        );
+        let method = match &settings.algorithm {
+            Algorithm::Sac(sac) => Method::Soft(Box::new(Soft::new(
+                sac,
+                &settings.hidden[1],
+                settings.activation,
+                &actor,
+                &mut rng,
+            ))),
+            _ => Method::OnPolicy(Box::new(OnPolicy::new(&settings, &actor, &mut rng))),
+        };
         let demonstrations = None;
-        Learner {
-            settings,
-            seed,
-            actor,
-            critic,
-            adam,
-            demonstrations,
-            iterations: 0,
-            episodes: 0,
-            samples: 0,
-        }
+        Learner { settings, seed, actor, method, demonstrations, iterations: 0, episodes: 0, samples: 0 }
     }
 
     /// Learns from these demonstrations, too. Before the first iteration the policy is cloned from them where the algorithm says so.
@@ -161,35 +114,21 @@ impl Learner {
             self.prepare(collector)?;
         }
         let episodes = self.collect(collector)?;
-        let batch = Batch::new(&episodes, &self.actor, &self.critic, self.settings.horizon);
-        // Without demonstrations the algorithm is one that has no use for them.
-        let shown = self.demonstrations.as_ref().map_or(Batch::default(), |shown| shown.batch(&self.actor));
+        let steps: usize = episodes.iter().map(|episode| episode.rewards.len()).sum();
         let (settings, seed, iteration) = (&self.settings, self.seed, self.iterations);
-        let (actor, critic, adam) = (&mut self.actor, &mut self.critic, &mut self.adam);
-        let mut improve = || {
-            let mut rng = generator(seed, &[iteration, POLICY, 0]);
-            match &settings.algorithm {
-                Algorithm::Ppo(ppo) => ppo::update(ppo, actor, adam, &batch, &mut rng),
-                Algorithm::Npg(npg) => npg::update(npg, actor, &batch),
-                Algorithm::Cloning(cloning) => cloning::update(cloning, actor, adam, &shown, &mut rng),
-                Algorithm::Dapg(dapg) => dapg::update(dapg, iteration, actor, &batch, &shown),
+        let (actor, threads) = (&mut self.actor, collector.threads());
+        let rngs = [POLICY, VALUES].map(|purpose| generator(seed, &[iteration, purpose, 0]));
+        let (update, explained) = match (&mut self.method, &settings.algorithm) {
+            (Method::Soft(soft), Algorithm::Sac(sac)) => {
+                let [mut rng, _] = rngs;
+                soft.remember(&episodes, settings.horizon.gamma);
+                soft.improve(sac, (settings.fit, settings.horizon.gamma), actor, (steps, threads), &mut rng)
             }
-        };
-        let mut fit = || {
-            critic.fit(
-                &batch.input,
-                &batch.returns,
-                settings.fit,
-                &mut generator(seed, &[iteration, VALUES, 0]),
-            )
-        };
-        let (update, explained) = if collector.threads() > 1 {
-            thread::scope(|scope| {
-                let fit = scope.spawn(fit);
-                (improve(), fit.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
-            })
-        } else {
-            (improve(), fit())
+            (Method::OnPolicy(method), _) => {
+                let shown = (&episodes[..], self.demonstrations.as_ref());
+                method.improve(settings, actor, shown, (iteration, threads), rngs)
+            }
+            (Method::Soft(_), _) => (Update::default(), 0.0),
         };
         // A clone is shown the same observations again, and has no use for other ones.
         if !matches!(self.settings.algorithm, Algorithm::Cloning(_)) {
@@ -200,19 +139,22 @@ impl Learner {
         Ok(Iteration {
             evaluation: evaluate(&summaries, collector.success()),
             spread: spread(summaries.iter().map(|summary| summary.reward)),
-            length: batch.steps() as f64 / episodes.len().max(1) as f64,
+            length: steps as f64 / episodes.len().max(1) as f64,
             faults: summaries.iter().filter(|summary| summary.faulty).count(),
             update,
             explained,
         })
     }
 
-    /// Finds how observations are to be normalised, from demonstrations or else from episodes that are not learnt from, and clones the
-    /// policy where the algorithm begins with that.
+    /// Finds how observations are to be normalised, from demonstrations or else from episodes that are only learnt from where they are
+    /// remembered, and clones the policy where the algorithm begins with that.
     fn prepare(&mut self, collector: &mut Collector) -> Result<(), PolicyError> {
         let Some(demonstrations) = &self.demonstrations else {
             let episodes = self.collect(collector)?;
             self.see(&episodes);
+            if let Method::Soft(soft) = &mut self.method {
+                soft.remember(&episodes, self.settings.horizon.gamma);
+            }
             return Ok(());
         };
         self.actor.seen.observe(demonstrations.observations());
@@ -228,8 +170,10 @@ impl Learner {
     /// All that decides how it goes on, by names, but for the settings, the seed and demonstrations.
     pub(super) fn entries(&mut self) -> Vec<Entry<'_>> {
         let mut entries = self.actor.entries();
-        entries.extend(self.critic.entries());
-        entries.extend(self.adam.entries().map(|entry| entry.of("policy.adam")));
+        entries.extend(match &mut self.method {
+            Method::OnPolicy(method) => method.entries(),
+            Method::Soft(soft) => soft.entries(),
+        });
         let counts = [
             ("iterations", &mut self.iterations),
             ("episodes", &mut self.episodes),
@@ -241,6 +185,32 @@ impl Learner {
             }),
         );
         entries
+    }
+
+    /// Refuses to remember more than a checkpoint can hold.
+    pub(crate) fn check_size(&self) -> Result<(), PolicyError> {
+        match &self.method {
+            Method::Soft(soft) if soft.most_bytes() > archive::MAX_CHECKPOINT_BYTES / 2 => {
+                let (needed, most) = (soft.most_bytes() >> 20, archive::MAX_CHECKPOINT_BYTES >> 21);
+                let message = format!(
+                    "algorithm.sac.remembered observations of this environment are {needed} MiB, and {most} can be kept: remember fewer"
+                );
+                Err(PolicyError::content(message))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Takes all that decides how it goes on from a file.
+    pub(super) fn fill(&mut self, archive: &Archive<'_>) -> Result<(), PolicyError> {
+        if let Method::Soft(soft) = &mut self.method {
+            soft.make_room(archive)?;
+        }
+        archive.fill(self.entries())?;
+        match &self.method {
+            Method::Soft(soft) => soft.check(),
+            Method::OnPolicy(_) => Ok(()),
+        }
     }
 
     fn collect(&mut self, collector: &mut Collector) -> Result<Vec<Episode>, PolicyError> {

@@ -1,5 +1,5 @@
-//! Learning from episodes, by the natural policy gradient and proximal policy optimisation, and from demonstrations: behaviour
-//! cloning, and the natural policy gradient with demonstrations.
+//! Learning from episodes, by the natural policy gradient, proximal policy optimisation and soft actor-critic, and from demonstrations:
+//! behaviour cloning, and the natural policy gradient with demonstrations.
 //!
 //! ```
 //! use robohive_agents::learn::{Algorithm, Collector, Fit, Horizon, Learner, Npg, Settings};
@@ -36,19 +36,24 @@ mod demonstrations;
 mod fit;
 mod learner;
 mod npg;
+mod on_policy;
 mod ppo;
 mod preset;
+mod replay;
 mod rollout;
+mod sac;
+mod settings;
 mod shuffle;
 
-pub use actor::Actor;
+pub use actor::{Actor, Head};
 pub use advantage::Horizon;
 pub use checkpoint::Card;
-pub use critic::Critic;
 pub use dapg::Dapg;
 pub use demonstrations::{Demonstrations, Lessons, Teacher};
 pub use fit::Fit;
-pub use learner::{Algorithm, Iteration, Learner, Settings};
+pub use learner::{Iteration, Learner};
 pub use npg::Npg;
 pub use ppo::{Ppo, Update};
 pub use rollout::{Choice, Collector, Episode};
+pub use sac::Sac;
+pub use settings::{Algorithm, Settings};

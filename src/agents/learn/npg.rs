@@ -36,7 +36,7 @@ pub(super) fn climb(
     own: usize,
 ) -> Update {
     let mut tape = Tape::default();
-    actor.means(input, &mut tape);
+    actor.forward(input, &mut tape);
     let (old_means, old_log_std) = (tape.output().to_vec(), actor.parts().1.to_vec());
     let gradient = gradient(actor, &tape, taken, weights);
     let direction = solve(|v| fisher_product(actor, &tape, v), &gradient);
@@ -118,6 +118,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::actor::Head;
     use super::*;
     use crate::nets::Activation;
     use random::Generator;
@@ -127,7 +128,8 @@ mod tests {
     /// A policy and a batch of drawn steps.
     fn example() -> (Actor, Batch, Tape) {
         let mut rng = Generator::pcg64(11_u64);
-        let mut actor = Actor::new([3, 2], &[8, 8], Activation::Tanh, -0.5, &mut rng);
+        let head = Head::Gaussian { log_std: -0.5, least: f32::NEG_INFINITY };
+        let mut actor = Actor::new([3, 2], &[8, 8], Activation::Tanh, head, &mut rng);
         actor.parameters.iter_mut().take(actor.net.parameters()).for_each(|parameter| *parameter += 0.1);
         let mut numbers =
             |len: usize| -> Vec<f32> { (0..len).map(|_| rng.random() as f32 * 2.0 - 1.0).collect() };
@@ -135,7 +137,7 @@ mod tests {
             (numbers(3 * STEPS_TAKEN), numbers(2 * STEPS_TAKEN), numbers(STEPS_TAKEN));
         let advantages = advantages.iter().map(|value| f64::from(*value)).collect();
         let mut tape = Tape::default();
-        actor.means(&input, &mut tape);
+        actor.forward(&input, &mut tape);
         (actor, Batch { input, actions, advantages, returns: vec![0.0; STEPS_TAKEN] }, tape)
     }
 

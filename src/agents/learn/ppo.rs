@@ -49,7 +49,7 @@ pub fn update(
     rng: &mut Generator<impl BitGenerator>,
 ) -> Update {
     let (actions, mut tape) = (actor.actions(), Tape::default());
-    actor.means(&batch.input, &mut tape);
+    actor.forward(&batch.input, &mut tape);
     let (old_means, old_log_std) = (tape.output().to_vec(), actor.parts().1.to_vec());
     let old: Vec<f32> = rows(&old_means, &batch.actions, actions)
         .map(|(mean, action)| gaussian::log_density(mean, &old_log_std, action))
@@ -61,7 +61,7 @@ pub fn update(
         batches.shuffle(rng);
         let mut clipped = 0;
         for chosen in batches.iter() {
-            actor.means(&batches.gather(chosen, &batch.input), &mut tape);
+            actor.forward(&batches.gather(chosen, &batch.input), &mut tape);
             let (taken, log_std) = (batches.gather(chosen, &batch.actions), actor.parts().1);
             let mut slopes = vec![0.0; taken.len()];
             let mut by_log_std = vec![-ppo.entropy; actions];
@@ -99,7 +99,7 @@ pub fn update(
 /// The mean divergence of a policy, given by its means of these observations and its deviations, from the present one.
 pub(super) fn divergence(actor: &Actor, [means, log_std]: [&[f32]; 2], input: &[f32]) -> f64 {
     let (actions, mut tape) = (actor.actions(), Tape::default());
-    actor.means(input, &mut tape);
+    actor.forward(input, &mut tape);
     let pairs = rows(means, tape.output(), actions);
     let each =
         pairs.map(|(old, new)| f64::from(gaussian::divergence([old, log_std], [new, actor.parts().1])));

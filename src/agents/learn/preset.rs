@@ -3,9 +3,10 @@
 use super::advantage::Horizon;
 use super::dapg::Dapg;
 use super::fit::Fit;
-use super::learner::{Algorithm, Settings};
 use super::npg::Npg;
 use super::ppo::Ppo;
+use super::sac::Sac;
+use super::settings::{Algorithm, Settings};
 use crate::nets::Activation;
 
 impl Settings {
@@ -53,6 +54,21 @@ impl Settings {
         Settings { algorithm: Algorithm::Dapg(dapg), episodes: 200, log_std: [0.0, -3.0], ..Self::npg() }
     }
 
+    /// Soft actor-critic for tasks of some hundred steps, with an update for each step.
+    pub fn sac() -> Self {
+        let (rate, batch) = (5e-4, 128);
+        let sac = Sac { steps: 3, share: 0.01, entropy: -1.0, rate, remembered: 1 << 20, begin: 5000 };
+        Settings {
+            algorithm: Algorithm::Sac(sac),
+            episodes: 8,
+            horizon: Horizon { gamma: 0.98, lambda: 1.0 },
+            hidden: [vec![128, 128], vec![128, 128]],
+            activation: Activation::Relu,
+            log_std: [-0.5, -5.0],
+            fit: Fit { epochs: batch, batch, rate, longest: 10.0 },
+        }
+    }
+
     /// Refuses what no training can be made of, in words.
     pub(crate) fn check(&self) -> Result<(), String> {
         let Settings { episodes, horizon: Horizon { gamma, lambda }, hidden, log_std, fit, .. } = self;
@@ -85,6 +101,25 @@ impl Settings {
                 positive("algorithm.dapg.weight", dapg.weight)?;
                 fits("algorithm.dapg.cloning", dapg.cloning)?;
             }
+            Algorithm::Sac(sac) => {
+                share("algorithm.sac.share", f64::from(sac.share))?;
+                positive("algorithm.sac.steps", sac.steps as f64)?;
+                positive("algorithm.sac.rate", f64::from(sac.rate))?;
+                if !sac.entropy.is_finite() {
+                    return Err(format!("algorithm.sac.entropy must be a number, and is {}", sac.entropy));
+                }
+                if *lambda != 1.0 {
+                    let message =
+                        "horizon.lambda must be 1 for sac, whose returns are of algorithm.sac.steps steps";
+                    return Err(format!("{message}, and is {lambda}"));
+                }
+                if !(2..=MOST_REMEMBERED).contains(&sac.remembered) || sac.begin > sac.remembered {
+                    return Err(format!(
+                        "algorithm.sac.remembered must be from 2 to {MOST_REMEMBERED} and not below begin, and they are {} and {}",
+                        sac.remembered, sac.begin
+                    ));
+                }
+            }
             Algorithm::Ppo(ppo) => {
                 for (name, value) in [
                     ("rate", f64::from(ppo.rate)),
@@ -114,6 +149,8 @@ impl Settings {
     }
 }
 
+/// Most observations that are remembered.
+const MOST_REMEMBERED: usize = 1 << 24;
 /// Most numbers of a hidden layer, and most layers.
 const WIDEST: usize = 4096;
 const DEEPEST: usize = 16;

@@ -4,9 +4,9 @@
 //! generator of the two. Rows of a network's batch have the bits that they have alone. So neither threads nor the number of environments that
 //! a thread steps side by side make a difference.
 
-use super::actor::Actor;
+use super::actor::{Actor, Head};
 use crate::error::PolicyError;
-use crate::nets::{Tape, gaussian};
+use crate::nets::Tape;
 use env::episode::Summary;
 use env::{Env, Rng, Success};
 use random::SeedSequence;
@@ -38,7 +38,7 @@ pub struct Episode {
 pub enum Choice {
     /// Drawn from the policy's distribution.
     Drawn,
-    /// Its mean.
+    /// Its mean, or its median where actions are squashed.
     Mean,
 }
 
@@ -82,7 +82,8 @@ impl Collector {
     /// Plays the episodes of these numbers.
     ///
     /// # Errors
-    /// An environment cannot be reset, refuses an action, or gives a reward that is not finite.
+    /// An environment cannot be reset, refuses an action, gives a reward that is not finite, or has other bounds of its actions than ±1
+    /// where the policy's are squashed.
     pub fn collect(
         &mut self,
         actor: &Actor,
@@ -90,6 +91,9 @@ impl Collector {
         seed: u64,
         numbers: Range<u64>,
     ) -> Result<Vec<Episode>, PolicyError> {
+        if matches!(actor.head, Head::Squashed(_)) {
+            within_one(&self.threads[0][0].env)?;
+        }
         let next = AtomicU64::new(numbers.start);
         let job = Job { actor, choice, seed, next: &next, end: numbers.end };
         let parts: Vec<Result<Vec<(u64, Episode)>, PolicyError>> = match &mut self.threads[..] {
@@ -106,6 +110,20 @@ impl Collector {
         let mut episodes = parts.into_iter().collect::<Result<Vec<_>, _>>()?.concat();
         episodes.sort_unstable_by_key(|(number, _)| *number);
         Ok(episodes.into_iter().map(|(_, episode)| episode).collect())
+    }
+}
+
+/// Refuses an environment whose actions are not from -1 to 1.
+fn within_one(env: &Env) -> Result<(), PolicyError> {
+    match (0..env.action_len()).find(|k| env.action_bounds(*k) != [-1.0, 1.0]) {
+        None => Ok(()),
+        Some(k) => {
+            let [low, high] = env.action_bounds(k);
+            let message = format!(
+                "its actions are from -1 to 1, and action {k} here is from {low} to {high}: set normalize_act=true"
+            );
+            Err(PolicyError::Foreign { id: env.spec().id.clone(), message })
+        }
     }
 }
 
@@ -135,10 +153,10 @@ impl Job<'_> {
             if input.is_empty() {
                 return Ok(played);
             }
-            self.actor.means(&input, &mut tape);
-            let means = tape.output().chunks_exact(self.actor.actions());
-            for (slot, mean) in slots.iter_mut().filter(|slot| slot.episode.is_some()).zip(means) {
-                played.extend(self.step(slot, mean)?);
+            self.actor.forward(&input, &mut tape);
+            let outputs = tape.output().chunks_exact(self.actor.net.outputs());
+            for (slot, output) in slots.iter_mut().filter(|slot| slot.episode.is_some()).zip(outputs) {
+                played.extend(self.step(slot, output)?);
             }
         }
     }
@@ -165,13 +183,14 @@ impl Job<'_> {
     }
 
     /// Makes a step, and gives the episode if it is over.
-    fn step(&self, slot: &mut Slot, mean: &[f32]) -> Result<Option<(u64, Episode)>, PolicyError> {
+    fn step(&self, slot: &mut Slot, output: &[f32]) -> Result<Option<(u64, Episode)>, PolicyError> {
         let Some((_, episode)) = &mut slot.episode else { return Ok(None) };
         let start = episode.actions.len();
-        episode.actions.extend_from_slice(mean);
-        if self.choice == Choice::Drawn {
-            let action = &mut episode.actions[start..];
-            gaussian::draw(mean, self.actor.parts().1, &mut slot.rng, action);
+        episode.actions.resize(start + slot.action.len(), 0.0);
+        let action = &mut episode.actions[start..];
+        match self.choice {
+            Choice::Drawn => self.actor.draw(output, &mut slot.rng, action),
+            Choice::Mean => self.actor.mean(output, action),
         }
         slot.action.iter_mut().zip(&episode.actions[start..]).for_each(|(to, from)| *to = f64::from(*from));
         let step = slot.env.step(&slot.action)?;

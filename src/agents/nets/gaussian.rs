@@ -13,7 +13,7 @@ use super::activation::exp;
 use random::{BitGenerator, Generator};
 
 /// The logarithm of 2π.
-const LN_TAU: f32 = 1.837_877_1;
+pub(super) const LN_TAU: f32 = 1.837_877_1;
 
 /// Draws an action from a distribution.
 pub fn draw(mean: &[f32], log_std: &[f32], rng: &mut Generator<impl BitGenerator>, action: &mut [f32]) {

@@ -148,8 +148,26 @@ impl Mlp {
         slopes: &[f32],
         gradient: &mut [f32],
     ) -> Vec<f32> {
-        self.check(parameters);
         self.check(gradient);
+        self.propagate(parameters, tape, slopes, Some(gradient))
+    }
+
+    /// Gives the slopes of a loss by the inputs alone, from those by the outputs of the batch on the tape.
+    ///
+    /// # Panics
+    /// `slopes` has another size than the outputs.
+    pub fn input_slopes(&self, parameters: &[f32], tape: &Tape, slopes: &[f32]) -> Vec<f32> {
+        self.propagate(parameters, tape, slopes, None)
+    }
+
+    fn propagate(
+        &self,
+        parameters: &[f32],
+        tape: &Tape,
+        slopes: &[f32],
+        mut gradient: Option<&mut [f32]>,
+    ) -> Vec<f32> {
+        self.check(parameters);
         assert_eq!(slopes.len(), tape.rows * self.outputs(), "slopes of the outputs");
         let mut slopes = slopes.to_vec();
         for (k, layer) in self.layers.iter().enumerate().rev() {
@@ -159,10 +177,12 @@ impl Mlp {
                     layer_norm::derivative(layer.outputs, &tape.norms[k], &mut slopes);
                 }
             }
-            let input = View::transposed(&tape.values[k], layer.inputs);
-            add_product(input, &slopes, tape.rows, &mut gradient[layer.weight.clone()]);
-            for row in slopes.chunks_exact(layer.outputs) {
-                gradient[layer.bias.clone()].iter_mut().zip(row).for_each(|(sum, slope)| *sum += slope);
+            if let Some(gradient) = &mut gradient {
+                let input = View::transposed(&tape.values[k], layer.inputs);
+                add_product(input, &slopes, tape.rows, &mut gradient[layer.weight.clone()]);
+                for row in slopes.chunks_exact(layer.outputs) {
+                    gradient[layer.bias.clone()].iter_mut().zip(row).for_each(|(sum, slope)| *sum += slope);
+                }
             }
             let turned = transpose(&parameters[layer.weight.clone()], layer.outputs);
             let mut before = vec![0.0; tape.rows * layer.inputs];
@@ -208,8 +228,12 @@ impl Mlp {
 /// The transpose of a matrix of `columns` columns, row after row.
 fn transpose(values: &[f32], columns: usize) -> Vec<f32> {
     let rows = values.len() / columns;
-    let mut turned = Vec::with_capacity(values.len());
-    (0..columns).for_each(|column| turned.extend((0..rows).map(|row| values[row * columns + column])));
+    let mut turned = vec![0.0; values.len()];
+    for (row, values) in values.chunks_exact(columns).enumerate() {
+        for (column, value) in values.iter().enumerate() {
+            turned[column * rows + row] = *value;
+        }
+    }
     turned
 }
 
@@ -263,6 +287,7 @@ mod tests {
                 let (_, slopes, tape) = loss(&net, &parameters, &input);
                 let mut gradient = vec![0.0; net.parameters()];
                 let inputs = net.backward(&parameters, &tape, &slopes, &mut gradient);
+                assert_eq!(inputs, net.input_slopes(&parameters, &tape, &slopes));
                 for (k, value) in gradient.iter().enumerate() {
                     let expected = slope(&parameters, k, |parameters| loss(&net, parameters, &input).0);
                     assert_near(&format!("{activation:?}, {normalized}, parameter {k}"), *value, expected);

@@ -27,8 +27,10 @@ mod kernel;
 mod layer_norm;
 mod mlp;
 mod running;
+mod squashed;
 
 pub use activation::{Activation, exp};
 pub use adam::{Adam, clip};
 pub use mlp::{Mlp, Tape};
 pub use running::Running;
+pub use squashed::Squashed;

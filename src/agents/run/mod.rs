@@ -76,6 +76,7 @@ impl Run {
         }
         config.learning.check().map_err(|message| PolicyError::run(folder, message))?;
         let learner = Learner::new(config.learning.clone(), config.seed, env);
+        learner.check_size().map_err(|error| PolicyError::run(folder, error))?;
         let collector = Collector::new(env, sizes[0], sizes[1])?;
         config.write(&folder.join(CONFIG))?;
         let log = Log::open(folder, 0)?;

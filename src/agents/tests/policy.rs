@@ -192,7 +192,10 @@ fn what_does_not_fit_is_refused() {
 #[test]
 fn a_file_that_is_too_long_is_refused() {
     let Err(error) = Policy::open("/dev/zero") else { panic!("zeros are no policy") };
-    assert_eq!(error.to_string(), "the policy /dev/zero: it has more than 64 MiB, and no policy has");
+    assert_eq!(
+        error.to_string(),
+        "the policy /dev/zero: it has more than 64 MiB, and no file of its kind has"
+    );
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Runs in folders: what an interruption changes, what the files hold, and what is refused.
 
-use agents::learn::{Algorithm, Demonstrations, Lessons, Settings};
+use agents::learn::{Algorithm, Demonstrations, Fit, Lessons, Settings};
 use agents::run::{COLUMNS, Config, Run};
 use agents::{Policy, PolicyError};
 use env::{Env, Options, OwnModels};
@@ -8,6 +8,15 @@ use robohive_agents as agents;
 use std::path::{Path, PathBuf};
 
 const ID: &str = "hive/myoElbowPose1D6MRandom-v0";
+
+/// A soft actor-critic that forgets: with room for nine of its episodes.
+fn sac() -> Settings {
+    let mut settings = Settings::sac();
+    let Algorithm::Sac(sac) = &mut settings.algorithm else { panic!("soft actor-critic") };
+    (sac.remembered, sac.begin) = (909, 500);
+    settings.fit = Fit { epochs: 4, batch: 32, ..settings.fit };
+    settings
+}
 
 fn env(id: &str) -> Env {
     Env::make(id, &OwnModels, &Options::default()).unwrap()
@@ -62,6 +71,7 @@ fn an_interrupted_run_ends_in_the_same_bits() {
         ("ppo", Settings::ppo()),
         ("bc", Settings::cloning()),
         ("dapg", Settings::dapg()),
+        ("sac", sac()),
     ] {
         let (whole, parts) = (folder(&format!("{name}_whole")), folder(&format!("{name}_parts")));
         let mut run = Run::create(&whole, config(learning.clone()), &env(ID), [4, 1]).unwrap();

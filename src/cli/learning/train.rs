@@ -29,8 +29,9 @@ The seed decides everything: the same run makes the same bits on any number of t
 by the loss of the machine, and resumed by --resume ends as one that was not.
 
 Algorithms: npg, the natural policy gradient (Kakade, 2001; Rajeswaran et al., 2017), with the networks, episodes and steps of \
-MyoSuite's published runs; ppo, proximal policy optimisation (Schulman et al., 2017); bc, behaviour cloning of a teacher; dapg, the \
-natural policy gradient with demonstrations (Rajeswaran et al., 2018).
+MyoSuite's published runs; ppo, proximal policy optimisation (Schulman et al., 2017); sac, soft actor-critic (Haarnoja et al., 2018) \
+with layer normalisation and returns of several steps; bc, behaviour cloning of a teacher; dapg, the natural policy gradient with \
+demonstrations (Rajeswaran et al., 2018).
 
 A teacher is a controller (`robohive run ID --controller list`) or a policy. Its successful episodes are kept in the folder, as \
 demonstrations.safetensors, so that a run resumes without it.
@@ -40,6 +41,7 @@ Examples:
   robohive train --resume elbow --iterations 3
   robohive train elbow/run.toml --seed 2 --out elbow2
   robohive train hive/FrankaReach-v0 --algo ppo --iterations 1 --out reach --quiet
+  robohive train hive/myoElbowPose1D6MRandom-v0 --algo sac --iterations 1 --out soft --quiet
   robohive train hive/FrankaReach-v0 --algo bc --teacher reach --demonstrations 5 --iterations 1 --out clone"
 )]
 pub struct Train {
@@ -85,6 +87,8 @@ pub enum AlgorithmName {
     Npg,
     /// Proximal policy optimisation
     Ppo,
+    /// Soft actor-critic: learns again and again from all it remembers, where steps are slow
+    Sac,
     /// Behaviour cloning: only from demonstrations
     Bc,
     /// The natural policy gradient with demonstrations
@@ -163,6 +167,7 @@ fn config(a: &Train) -> Result<Config, Failure> {
         Some(AlgorithmName::Npg) => config.learning = Settings::npg(),
         Some(AlgorithmName::Ppo) => config.learning = Settings::ppo(),
         Some(AlgorithmName::Bc) => config.learning = Settings::cloning(),
+        Some(AlgorithmName::Sac) => config.learning = Settings::sac(),
         Some(AlgorithmName::Dapg) => config.learning = Settings::dapg(),
     }
     config.teacher = a.teacher.given(config.teacher)?;
