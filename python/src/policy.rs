@@ -20,11 +20,7 @@ impl PyPolicy {
     fn new(py: Python<'_>, id: &str, file: Option<PathBuf>) -> PyResult<Self> {
         let policy = match file {
             Some(file) => Policy::open(file),
-            None => Policy::shipped(id).and_then(|policy| {
-                let shipped = assets::policies().collect::<Vec<_>>().join(", ");
-                let message = format!("none is shipped for it; there are some for {shipped}");
-                policy.ok_or_else(|| PolicyError::Foreign { id: id.to_owned(), message })
-            }),
+            None => Policy::best(id),
         };
         Ok(PyPolicy(Turns::of(policy.map_err(|error| raised(py, &error))?)))
     }

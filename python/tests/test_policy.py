@@ -22,7 +22,7 @@ def test_a_shipped_policy_solves_its_task_and_repeats():
 
 def test_a_policy_is_refused_where_it_does_not_belong(tmp_path):
     env = robohive.make("hive/QuadrupedWalk-v0")
-    with pytest.raises(ValueError, match=f"none is shipped for it; there are some for .*{ELBOW}"):
+    with pytest.raises(ValueError, match=f"no policy is shipped for .*; there are some for .*{ELBOW}"):
         env.policy()
     with pytest.raises(OSError, match="missing.safetensors"):
         env.policy(tmp_path / "missing.safetensors")

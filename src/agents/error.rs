@@ -37,6 +37,11 @@ pub enum PolicyError {
         /// What does not fit.
         message: String,
     },
+    /// No policy is shipped for an id.
+    Unshipped {
+        /// The id.
+        id: String,
+    },
     /// A teacher does not show what is to be learnt.
     Teacher {
         /// The environment's id.
@@ -85,6 +90,13 @@ impl fmt::Display for PolicyError {
             PolicyError::Content { path: None, message } => write!(f, "the policy: {message}"),
             PolicyError::Run { path, message } => write!(f, "the run {}: {message}", path.display()),
             PolicyError::Foreign { id, message } => write!(f, "the policy is not one for {id}: {message}"),
+            PolicyError::Unshipped { id } => {
+                let shipped = assets::policies().collect::<Vec<_>>().join(", ");
+                write!(
+                    f,
+                    "no policy is shipped for {id}; there are some for {shipped}; `robohive train {id}` trains one"
+                )
+            }
             PolicyError::Teacher { id, message } => write!(f, "the teacher of {id}: {message}"),
             PolicyError::Reward { id, reward, step } => {
                 write!(

@@ -72,6 +72,14 @@ impl Policy {
         assets::policy(id).map(Self::parse).transpose()
     }
 
+    /// The policy that is shipped for the environments of an id.
+    ///
+    /// # Errors
+    /// None is shipped; the policy is one of another version.
+    pub fn best(id: &str) -> Result<Self, PolicyError> {
+        Self::shipped(id)?.ok_or_else(|| PolicyError::Unshipped { id: id.to_owned() })
+    }
+
     /// Reads a policy from the bytes of a file.
     ///
     /// # Errors

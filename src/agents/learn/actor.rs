@@ -35,11 +35,11 @@ pub struct Actor {
 }
 
 impl Head {
-    /// How many numbers decide the distribution of `actions` actions; none where there are more than can be counted.
-    pub fn outputs(&self, actions: usize) -> Option<usize> {
+    /// How many numbers decide the distribution of `actions` actions.
+    pub fn outputs(&self, actions: usize) -> usize {
         match self {
-            Head::Gaussian { .. } => Some(actions),
-            Head::Squashed(_) => actions.checked_mul(2),
+            Head::Gaussian { .. } => actions,
+            Head::Squashed(_) => actions.saturating_mul(2),
         }
     }
 }
@@ -56,8 +56,7 @@ impl Actor {
         head: Head,
         rng: &mut Rng,
     ) -> Self {
-        let outputs = head.outputs(actions).unwrap_or(usize::MAX);
-        let widths: Vec<usize> = [&[observed], hidden, &[outputs]].concat();
+        let widths: Vec<usize> = [&[observed], hidden, &[head.outputs(actions)]].concat();
         let net = Mlp::new(&widths, activation, false);
         let mut parameters = net.draw(LAST, rng);
         if let Head::Gaussian { log_std, .. } = head {

@@ -50,7 +50,14 @@ mod tests {
 
     fn episode(rewards: &[f64], terminated: bool) -> Episode {
         let (observations, actions) = (vec![0.0; rewards.len() + 1], vec![0.0; rewards.len()]);
-        Episode { observations, actions, rewards: rewards.to_vec(), terminated, summary: Summary::default() }
+        Episode {
+            observations,
+            actions,
+            shown: Vec::new(),
+            rewards: rewards.to_vec(),
+            terminated,
+            summary: Summary::default(),
+        }
     }
 
     #[test]

@@ -124,7 +124,7 @@ impl Card {
     /// Number of parameters of its policy's network; none where a width is zero, or there are more than can be counted.
     fn parameters(&self) -> Option<usize> {
         let [hidden, values] = &self.settings.hidden;
-        let outputs = self.settings.head().outputs(self.actions)?;
+        let outputs = self.settings.head().outputs(self.actions);
         let widths = [&[self.observed], &hidden[..], &[outputs]].concat();
         if widths.contains(&0) || values.contains(&0) {
             return None;

@@ -3,7 +3,7 @@
 use super::actor::Actor;
 use super::batch::Batch;
 use super::fit::Fit;
-use super::ppo::{Update, divergence};
+use super::update::{Update, divergence};
 use crate::nets::{Adam, Tape, gaussian};
 use random::{BitGenerator, Generator};
 

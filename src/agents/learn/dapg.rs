@@ -5,7 +5,7 @@ use super::actor::Actor;
 use super::batch::Batch;
 use super::fit::Fit;
 use super::npg;
-use super::ppo::Update;
+use super::update::Update;
 use serde::{Deserialize, Serialize};
 
 /// Settings of an update.

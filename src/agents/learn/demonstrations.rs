@@ -2,6 +2,7 @@
 
 use super::actor::Actor;
 use super::batch::Batch;
+use super::rollout::Episode;
 use crate::archive::{self, Archive, Entry, Numbers};
 use crate::error::PolicyError;
 use env::episode::Summary;
@@ -44,9 +45,13 @@ pub struct Lessons {
     pub noise: f64,
 }
 
-/// Steps of episodes in which a teacher succeeded.
+/// Steps of episodes in which a teacher succeeded, and then of a policy's own that it corrected.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Demonstrations {
+    /// Id of the environment.
+    id: String,
+    /// Lengths of an observation and of an action.
+    sizes: [usize; 2],
     /// What was observed before each step, `[steps × observed]`.
     observations: Vec<f64>,
     /// What the teacher would have done, `[steps × actions]`.
@@ -55,6 +60,8 @@ pub struct Demonstrations {
     lengths: Vec<u64>,
     /// Episodes that the teacher played.
     pub played: u64,
+    /// Episodes of a policy that it corrected, the last ones.
+    corrected: u64,
 }
 
 /// What a file says of the numbers in it.
@@ -67,6 +74,8 @@ struct Label {
     steps: usize,
     episodes: usize,
     played: u64,
+    #[serde(default)]
+    corrected: u64,
 }
 
 impl Demonstrations {
@@ -90,8 +99,7 @@ impl Demonstrations {
         if lessons.episodes == 0 {
             return refuse("at least one demonstration is needed".into());
         }
-        let mut kept =
-            Demonstrations { observations: Vec::new(), actions: Vec::new(), lengths: Vec::new(), played: 0 };
+        let mut kept = Self::none(env);
         while (kept.lengths.len() as u64) < lessons.episodes {
             if kept.played >= ATTEMPTS * lessons.episodes {
                 let (found, played, asked) = (kept.lengths.len(), kept.played, lessons.episodes);
@@ -107,6 +115,62 @@ impl Demonstrations {
             tell(&kept);
         }
         Ok(kept)
+    }
+
+    /// No steps in environments like `env`.
+    fn none(env: &Env) -> Self {
+        Demonstrations {
+            id: env.spec().id.clone(),
+            sizes: [env.observation().len(), env.action_len()],
+            observations: Vec::new(),
+            actions: Vec::new(),
+            lengths: Vec::new(),
+            played: 0,
+            corrected: 0,
+        }
+    }
+
+    /// Adds what a teacher would have done in episodes of a policy.
+    ///
+    /// # Errors
+    /// It has not been asked; the steps are more than a file can hold.
+    pub(super) fn correct(&mut self, episodes: &[Episode]) -> Result<(), PolicyError> {
+        let refuse = |message: String| Err(PolicyError::Teacher { id: self.id.clone(), message });
+        for episode in episodes {
+            if episode.shown.len() != episode.actions.len() {
+                return refuse("it is to correct what the policy does, and was given no environments".into());
+            }
+            let seen = episode.observations.len() - self.sizes[0];
+            self.observations.extend_from_slice(&episode.observations[..seen]);
+            self.actions.extend_from_slice(&episode.shown);
+            self.lengths.push(episode.rewards.len() as u64);
+            self.corrected += 1;
+        }
+        if self.bytes() > archive::MAX_BYTES {
+            let most = archive::MAX_BYTES >> 20;
+            return refuse(format!(
+                "demonstrations and corrections have more than {most} MiB: ask for fewer episodes or iterations"
+            ));
+        }
+        Ok(())
+    }
+
+    /// Leaves out all corrected episodes but the first ones.
+    ///
+    /// # Errors
+    /// There are not so many.
+    pub(crate) fn keep_corrected(&mut self, count: u64) -> Result<(), PolicyError> {
+        if self.corrected < count {
+            let message =
+                format!("it holds {} corrected episodes of {count}: restore the file", self.corrected);
+            return Err(PolicyError::content(message));
+        }
+        self.lengths.truncate(self.lengths.len() - (self.corrected - count) as usize);
+        self.corrected = count;
+        let [_, steps] = self.sizes();
+        self.observations.truncate(steps * self.sizes[0]);
+        self.actions.truncate(steps * self.sizes[1]);
+        Ok(())
     }
 
     /// Plays an episode, and keeps its steps if it is a success; where a task counts a share of solved steps, if it ends solved.
@@ -172,15 +236,16 @@ impl Demonstrations {
     ///
     /// # Errors
     /// The file cannot be written, or would be too large.
-    pub fn save(&mut self, env: &Env, path: &Path) -> Result<(), PolicyError> {
+    pub fn save(&mut self, path: &Path) -> Result<(), PolicyError> {
         let [episodes, steps] = self.sizes();
         let label = Label {
             format: FORMAT.into(),
-            id: env.spec().id.clone(),
-            sizes: [env.observation().len(), env.action_len()],
+            id: self.id.clone(),
+            sizes: self.sizes,
             steps,
             episodes,
             played: self.played,
+            corrected: self.corrected,
         };
         let label = serde_json::to_string(&label).map_err(|error| PolicyError::content(error.to_string()))?;
         archive::write(path, label, &self.entries(steps), archive::MAX_BYTES)
@@ -206,14 +271,18 @@ impl Demonstrations {
                 return Err(PolicyError::Foreign { id: id.clone(), message });
             }
             let numbers = label.steps.checked_mul(8 * sizes[0].max(1));
-            if numbers.is_none_or(|bytes| bytes > archive.size) || label.episodes > archive.size {
+            let counts = label.episodes.max(label.corrected as usize);
+            if numbers.is_none_or(|bytes| bytes > archive.size) || counts > archive.size.min(label.episodes) {
                 return Err(PolicyError::content("its card says of more steps than the file holds"));
             }
             let mut read = Demonstrations {
+                id: label.id,
+                sizes,
                 observations: vec![0.0; label.steps * sizes[0]],
                 actions: vec![0.0; label.steps * sizes[1]],
                 lengths: vec![0; label.episodes],
                 played: label.played,
+                corrected: label.corrected,
             };
             archive.fill(read.entries(label.steps))?;
             if read.lengths.iter().try_fold(0_u64, |sum, steps| sum.checked_add(*steps))

@@ -4,11 +4,10 @@ use super::actor::Actor;
 use super::cloning;
 use super::dapg::Dapg;
 use super::demonstrations::Demonstrations;
-use super::on_policy::OnPolicy;
-use super::ppo::Update;
+use super::method::Method;
 use super::rollout::{Choice, Collector, Episode};
-use super::sac::Soft;
 use super::settings::{Algorithm, Settings};
+use super::update::Update;
 use crate::archive::{self, Archive, Entry, Numbers};
 use crate::error::PolicyError;
 use crate::nets::Adam;
@@ -37,15 +36,6 @@ pub struct Learner {
     pub episodes: u64,
     /// Steps of the environments.
     pub samples: u64,
-}
-
-/// What improves the policy.
-#[derive(Clone, Debug, PartialEq)]
-enum Method {
-    /// Its own latest episodes.
-    OnPolicy(Box<OnPolicy>),
-    /// All that is remembered.
-    Soft(Box<Soft>),
 }
 
 /// What an iteration did.
@@ -77,16 +67,7 @@ impl Learner {
             settings.head(),
             &mut rng,
         );
-        let method = match &settings.algorithm {
-            Algorithm::Sac(sac) => Method::Soft(Box::new(Soft::new(
-                sac,
-                &settings.hidden[1],
-                settings.activation,
-                &actor,
-                &mut rng,
-            ))),
-            _ => Method::OnPolicy(Box::new(OnPolicy::new(&settings, &actor, &mut rng))),
-        };
+        let method = Method::new(&settings, &actor, &mut rng);
         let demonstrations = None;
         Learner { settings, seed, actor, method, demonstrations, iterations: 0, episodes: 0, samples: 0 }
     }
@@ -96,10 +77,15 @@ impl Learner {
         self.demonstrations = Some(demonstrations);
     }
 
+    /// What it learns from besides, with what was corrected so far.
+    pub(crate) fn demonstrations(&mut self) -> Option<&mut Demonstrations> {
+        self.demonstrations.as_mut()
+    }
+
     /// Collects episodes and learns from them, on two threads if the collector has more than one.
     ///
     /// # Errors
-    /// An environment fails, or gives a reward that is not finite; an algorithm that learns from demonstrations has none.
+    /// An environment fails, or gives a reward that is not finite; an algorithm that learns from demonstrations or corrections has none.
     pub fn iterate(&mut self, collector: &mut Collector) -> Result<Iteration, PolicyError> {
         let taught = self.settings.algorithm.needs_demonstrations();
         if taught != self.demonstrations.is_some() {
@@ -114,21 +100,25 @@ impl Learner {
             self.prepare(collector)?;
         }
         let episodes = self.collect(collector)?;
+        if let Some(demonstrations) =
+            self.demonstrations.as_mut().filter(|_| self.settings.algorithm.needs_corrections())
+        {
+            demonstrations.correct(&episodes)?;
+        }
         let steps: usize = episodes.iter().map(|episode| episode.rewards.len()).sum();
         let (settings, seed, iteration) = (&self.settings, self.seed, self.iterations);
         let (actor, threads) = (&mut self.actor, collector.threads());
         let rngs = [POLICY, VALUES].map(|purpose| generator(seed, &[iteration, purpose, 0]));
-        let (update, explained) = match (&mut self.method, &settings.algorithm) {
-            (Method::Soft(soft), Algorithm::Sac(sac)) => {
+        let (update, explained) = match &mut self.method {
+            Method::Soft(soft) => {
                 let [mut rng, _] = rngs;
                 soft.remember(&episodes, settings.horizon.gamma);
-                soft.improve(sac, (settings.fit, settings.horizon.gamma), actor, (steps, threads), &mut rng)
+                soft.improve((settings.fit, settings.horizon.gamma), actor, (steps, threads), &mut rng)
             }
-            (Method::OnPolicy(method), _) => {
+            Method::OnPolicy(method) => {
                 let shown = (&episodes[..], self.demonstrations.as_ref());
                 method.improve(settings, actor, shown, (iteration, threads), rngs)
             }
-            (Method::Soft(_), _) => (Update::default(), 0.0),
         };
         // A clone is shown the same observations again, and has no use for other ones.
         if !matches!(self.settings.algorithm, Algorithm::Cloning(_)) {
@@ -170,10 +160,7 @@ impl Learner {
     /// All that decides how it goes on, by names, but for the settings, the seed and demonstrations.
     pub(super) fn entries(&mut self) -> Vec<Entry<'_>> {
         let mut entries = self.actor.entries();
-        entries.extend(match &mut self.method {
-            Method::OnPolicy(method) => method.entries(),
-            Method::Soft(soft) => soft.entries(),
-        });
+        entries.extend(self.method.entries());
         let counts = [
             ("iterations", &mut self.iterations),
             ("episodes", &mut self.episodes),

@@ -1,5 +1,5 @@
 //! Learning from episodes, by the natural policy gradient, proximal policy optimisation and soft actor-critic, and from demonstrations:
-//! behaviour cloning, and the natural policy gradient with demonstrations.
+//! behaviour cloning, dataset aggregation, and the natural policy gradient with demonstrations.
 //!
 //! ```
 //! use robohive_agents::learn::{Algorithm, Collector, Fit, Horizon, Learner, Npg, Settings};
@@ -35,6 +35,7 @@ mod dapg;
 mod demonstrations;
 mod fit;
 mod learner;
+mod method;
 mod npg;
 mod on_policy;
 mod ppo;
@@ -44,6 +45,7 @@ mod rollout;
 mod sac;
 mod settings;
 mod shuffle;
+mod update;
 
 pub use actor::{Actor, Head};
 pub use advantage::Horizon;
@@ -53,7 +55,8 @@ pub use demonstrations::{Demonstrations, Lessons, Teacher};
 pub use fit::Fit;
 pub use learner::{Iteration, Learner};
 pub use npg::Npg;
-pub use ppo::{Ppo, Update};
+pub use ppo::Ppo;
 pub use rollout::{Choice, Collector, Episode};
 pub use sac::Sac;
 pub use settings::{Algorithm, Settings};
+pub use update::Update;

@@ -2,7 +2,7 @@
 
 use super::actor::Actor;
 use super::batch::Batch;
-use super::ppo::{Update, divergence};
+use super::update::{Update, divergence};
 use crate::nets::{Tape, gaussian};
 use serde::{Deserialize, Serialize};
 

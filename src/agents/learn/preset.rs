@@ -46,6 +46,12 @@ impl Settings {
         Settings { algorithm: Algorithm::Cloning(cloning), log_std: [-0.5, -4.0], ..ppo }
     }
 
+    /// Dataset aggregation: a clone that is corrected in 16 episodes of its own an iteration.
+    pub fn dagger() -> Self {
+        let cloning = Fit { epochs: 5, batch: 64, rate: 1e-3, longest: 10.0 };
+        Settings { algorithm: Algorithm::Dagger(cloning), episodes: 16, ..Self::cloning() }
+    }
+
     /// The natural policy gradient with demonstrations: the policy's network, 200 episodes an iteration, the step size, the weights and the cloning are
     /// those of the published runs on hands; the rest is our choice.
     pub fn dapg() -> Self {
@@ -91,9 +97,10 @@ impl Settings {
         fits("fit", *fit)?;
         match self.algorithm {
             Algorithm::Npg(npg) => positive("algorithm.npg.step", npg.step)?,
-            Algorithm::Cloning(cloning) => {
-                positive("algorithm.cloning.epochs", cloning.epochs as f64)?;
-                fits("algorithm.cloning", cloning)?;
+            Algorithm::Cloning(cloning) | Algorithm::Dagger(cloning) => {
+                let name = if self.algorithm.needs_corrections() { "dagger" } else { "cloning" };
+                positive(&format!("algorithm.{name}.epochs"), cloning.epochs as f64)?;
+                fits(&format!("algorithm.{name}"), cloning)?;
             }
             Algorithm::Dapg(dapg) => {
                 share("algorithm.dapg.decay", dapg.decay)?;
@@ -105,6 +112,12 @@ impl Settings {
                 share("algorithm.sac.share", f64::from(sac.share))?;
                 positive("algorithm.sac.steps", sac.steps as f64)?;
                 positive("algorithm.sac.rate", f64::from(sac.rate))?;
+                if fit.batch < 2 {
+                    return Err(format!(
+                        "fit.batch must be at least 2 for sac, which halves it, and is {}",
+                        fit.batch
+                    ));
+                }
                 if !sac.entropy.is_finite() {
                     return Err(format!("algorithm.sac.entropy must be a number, and is {}", sac.entropy));
                 }

@@ -190,6 +190,7 @@ mod tests {
         Episode {
             observations: numbers(steps + 1).collect(),
             actions: numbers(steps).map(|k| -k as f32).collect(),
+            shown: Vec::new(),
             rewards: numbers(steps).collect(),
             terminated,
             summary: Summary::default(),

@@ -5,6 +5,7 @@
 //! a thread steps side by side make a difference.
 
 use super::actor::{Actor, Head};
+use super::demonstrations::Teacher;
 use crate::error::PolicyError;
 use crate::nets::Tape;
 use env::episode::Summary;
@@ -25,6 +26,8 @@ pub struct Episode {
     pub observations: Vec<f64>,
     /// Actions as they were drawn, `[steps × actions]`; the environment takes them within their bounds.
     pub actions: Vec<f32>,
+    /// What a teacher would have done instead, `[steps × actions]`; empty where there is none.
+    pub shown: Vec<f32>,
     /// The reward of each step.
     pub rewards: Vec<f64>,
     /// Whether the task ended it, so that no further reward was to be had.
@@ -53,6 +56,7 @@ struct Slot {
     episode: Option<(u64, Episode)>,
     rng: Rng,
     action: Vec<f64>,
+    teacher: Option<Box<dyn Teacher + Send>>,
 }
 
 impl Collector {
@@ -63,7 +67,7 @@ impl Collector {
     pub fn new(env: &Env, count: usize, threads: usize) -> Result<Self, PolicyError> {
         let slot = || -> Result<Slot, PolicyError> {
             let action = vec![0.0; env.action_len()];
-            Ok(Slot { env: env.fork()?, episode: None, rng: Rng::pcg64(0_u64), action })
+            Ok(Slot { env: env.fork()?, episode: None, rng: Rng::pcg64(0_u64), action, teacher: None })
         };
         let slots = |_| (0..count.max(1)).map(|_| slot()).collect();
         Ok(Collector { threads: (0..threads.max(1)).map(slots).collect::<Result<_, _>>()? })
@@ -79,10 +83,24 @@ impl Collector {
         self.threads[0][0].env.success()
     }
 
+    /// Lets teachers, one made for each environment, say what they would have done in every state that a policy comes to.
+    ///
+    /// # Errors
+    /// A teacher cannot be made.
+    pub fn teach(
+        &mut self,
+        mut make: impl FnMut(&Env) -> Result<Box<dyn Teacher + Send>, PolicyError>,
+    ) -> Result<(), PolicyError> {
+        for slot in self.threads.iter_mut().flatten() {
+            slot.teacher = Some(make(&slot.env)?);
+        }
+        Ok(())
+    }
+
     /// Plays the episodes of these numbers.
     ///
     /// # Errors
-    /// An environment cannot be reset, refuses an action, gives a reward that is not finite, or has other bounds of its actions than ±1
+    /// An environment or a teacher fails; an environment refuses an action, gives a reward that is not finite, or has other bounds of its actions than ±1
     /// where the policy's are squashed.
     pub fn collect(
         &mut self,
@@ -170,10 +188,15 @@ impl Job<'_> {
         let draws = |purpose: u64| SeedSequence::with_spawn_key(self.seed, vec![number, purpose]);
         let [low, high] = draws(RESET).generate_state::<2>().map(u64::from);
         slot.rng = Rng::pcg64(draws(NOISE));
-        let observations = slot.env.reset(Some(high << 32 | low))?.to_vec();
+        let seed = high << 32 | low;
+        let observations = slot.env.reset(Some(seed))?.to_vec();
+        if let Some(teacher) = &mut slot.teacher {
+            teacher.begin(&slot.env, seed)?;
+        }
         let episode = Episode {
             observations,
             actions: Vec::new(),
+            shown: Vec::new(),
             rewards: Vec::new(),
             terminated: false,
             summary: Summary::default(),
@@ -185,6 +208,10 @@ impl Job<'_> {
     /// Makes a step, and gives the episode if it is over.
     fn step(&self, slot: &mut Slot, output: &[f32]) -> Result<Option<(u64, Episode)>, PolicyError> {
         let Some((_, episode)) = &mut slot.episode else { return Ok(None) };
+        if let Some(teacher) = &mut slot.teacher {
+            teacher.act(&slot.env, &mut slot.action)?;
+            episode.shown.extend(slot.action.iter().map(|value| *value as f32));
+        }
         let start = episode.actions.len();
         episode.actions.resize(start + slot.action.len(), 0.0);
         let action = &mut episode.actions[start..];

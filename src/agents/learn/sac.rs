@@ -1,11 +1,11 @@
 //! Soft actor-critic with a temperature that is learnt (Haarnoja et al., 2018, "Soft actor-critic algorithms and applications", algorithm 1),
 //! layer normalisation in the action values, and returns of several steps.
 
-use super::actor::{Actor, Head};
+use super::actor::Actor;
 use super::fit::Fit;
-use super::ppo::Update;
 use super::replay::{Replay, Transitions, observe_returns};
 use super::rollout::Episode;
+use super::update::Update;
 use crate::archive::{Archive, Entry, Numbers};
 use crate::error::PolicyError;
 use crate::nets::{Activation, Adam, Mlp, Running, Squashed, Tape, clip, exp};
@@ -39,6 +39,8 @@ pub struct Sac {
 /// What a soft actor-critic has beside its policy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Soft {
+    sac: Sac,
+    head: Squashed,
     /// From what is observed, normalised, and an action to the value of it.
     net: Mlp,
     judges: [Judge; 2],
@@ -71,7 +73,6 @@ struct Part {
 struct Step<'a> {
     soft: &'a Soft,
     actor: &'a Actor,
-    head: Squashed,
     drawn: &'a Transitions,
     /// Noise of the actions after the steps, and of those before.
     noise: [&'a [f32]; 2],
@@ -81,7 +82,13 @@ struct Step<'a> {
 
 impl Soft {
     /// Before the first step.
-    pub fn new(sac: &Sac, hidden: &[usize], activation: Activation, actor: &Actor, rng: &mut Rng) -> Self {
+    pub fn new(
+        (sac, head): (Sac, Squashed),
+        hidden: &[usize],
+        activation: Activation,
+        actor: &Actor,
+        rng: &mut Rng,
+    ) -> Self {
         let (observed, actions) = (actor.net.inputs(), actor.actions());
         let widths: Vec<usize> = [&[observed + actions], hidden, &[1]].concat();
         let net = Mlp::new(&widths, activation, true);
@@ -90,6 +97,8 @@ impl Soft {
             Judge { slow: parameters.clone(), adam: Adam::new(parameters.len()), parameters }
         });
         Soft {
+            sac,
+            head,
             net,
             judges,
             policy: Adam::new(actor.parameters.len()),
@@ -112,41 +121,40 @@ impl Soft {
     /// returns that the values explained.
     pub fn improve(
         &mut self,
-        sac: &Sac,
         (fit, gamma): (Fit, f64),
         actor: &mut Actor,
         (new, threads): (usize, usize),
         rng: &mut Rng,
     ) -> (Update, f64) {
-        let Head::Squashed(head) = actor.head else { return (Update::default(), 0.0) };
-        if self.replay.rows() < sac.begin {
+        if self.replay.rows() < self.sac.begin {
             return (Update::default(), 0.0);
         }
         let (old, mut outcome) = (actor.clone(), Update::default());
         let (mut explained, mut last) = ([0.0; 2], Transitions::default());
         let updates = (fit.epochs * new).div_ceil(fit.batch);
         for _ in 0..updates {
-            let drawn = self.replay.draw(fit.batch, (sac.steps, gamma), rng);
+            let drawn = self.replay.draw(fit.batch, (self.sac.steps, gamma), rng);
             let mut normals =
                 || -> Vec<f32> { (0..drawn.actions.len()).map(|_| rng.standard_normal() as f32).collect() };
             let noise = [normals(), normals()];
             let scale = 1.0 / self.returns.deviations().next().unwrap_or(1.0);
-            let step = Step { soft: self, actor, head, drawn: &drawn, noise: [&noise[0], &noise[1]], scale };
+            let step = Step { soft: self, actor, drawn: &drawn, noise: [&noise[0], &noise[1]], scale };
             let part = step.whole(threads);
             let [sum, squares, left] = part.wanted;
             explained[0] += left;
             explained[1] += squares - sum * sum;
             outcome.entropy -= part.log_density / updates as f64;
-            self.take(sac, fit, actor, part);
+            self.take(fit, actor, part);
             last = drawn;
         }
         outcome.epochs = fit.epochs;
-        outcome.divergence = divergence(&head, [&old, actor], &last.before);
+        outcome.divergence = divergence(&self.head, [&old, actor], &last.before);
         (outcome, if explained[1] > 0.0 { 1.0 - explained[0] / explained[1] } else { 0.0 })
     }
 
     /// Takes a step of all optimisers, and moves the slow copies.
-    fn take(&mut self, sac: &Sac, fit: Fit, actor: &mut Actor, mut part: Part) {
+    fn take(&mut self, fit: Fit, actor: &mut Actor, mut part: Part) {
+        let sac = self.sac;
         for (judge, gradient) in self.judges.iter_mut().zip(&mut part.judges) {
             clip(gradient, fit.longest);
             judge.adam.step(fit.rate, 0.0, gradient, &mut judge.parameters);
@@ -216,7 +224,7 @@ impl Step<'_> {
 
     /// The slopes of some rows of the batch.
     fn part(&self, rows: Range<usize>) -> Part {
-        let (Step { soft, actor, head, drawn, .. }, observed) = (self, self.actor.net.inputs());
+        let (Step { soft, actor, drawn, .. }, observed) = (self, self.actor.net.inputs());
         let (width, share) = (actor.actions(), 1.0 / drawn.rewards.len() as f32);
         let [observations, actions] = [observed, width].map(|width| rows.start * width..rows.end * width);
         let alpha = exp(soft.log_temperature);
@@ -243,14 +251,16 @@ impl Step<'_> {
         for (k, (slopes, outputs)) in each.enumerate() {
             let row = k * width..(k + 1) * width;
             let made = [&noise[row.clone()], &chosen[row.clone()]];
-            head.slopes(outputs, made, alpha * share, &by_action[row], slopes);
+            soft.head.slopes(outputs, made, alpha * share, &by_action[row], slopes);
         }
         let mut policy = vec![0.0; actor.parameters.len()];
         actor.net.backward(&actor.parameters, &tape, &slopes, &mut policy);
-        let mean = |numbers: &[f32], power: i32| -> f64 {
-            numbers.iter().map(|number| f64::from(*number).powi(power) * f64::from(share)).sum()
+        let mean = |numbers: &[f32]| -> f64 {
+            numbers.iter().map(|number| f64::from(*number) * f64::from(share)).sum()
         };
-        let (log_density, wanted) = (mean(&densities, 1), [mean(&wanted, 1), mean(&wanted, 2), left]);
+        let squares = wanted.iter().map(|value| f64::from(*value));
+        let squares = squares.map(|value| value * value * f64::from(share)).sum();
+        let (log_density, wanted) = (mean(&densities), [mean(&wanted), squares, left]);
         Part { judges, policy, log_density, wanted }
     }
 
@@ -282,7 +292,7 @@ impl Step<'_> {
         let rows = actions.chunks_exact_mut(width).zip(noise.chunks_exact(width));
         let rows = rows.zip(tape.output().chunks_exact(2 * width));
         let densities =
-            rows.map(|((action, noise), outputs)| self.head.act(outputs, noise, action)).collect();
+            rows.map(|((action, noise), outputs)| self.soft.head.act(outputs, noise, action)).collect();
         (actions, densities)
     }
 

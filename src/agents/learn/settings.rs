@@ -21,6 +21,8 @@ pub enum Algorithm {
     Npg(Npg),
     /// Behaviour cloning: episodes are played to see what became of it, and only demonstrations are learnt from.
     Cloning(Fit),
+    /// Behaviour cloning of a teacher who says what to do in every state that the policy comes to (dataset aggregation).
+    Dagger(Fit),
     /// The natural policy gradient with demonstrations.
     Dapg(Dapg),
     /// Soft actor-critic.
@@ -34,6 +36,7 @@ impl Algorithm {
             Algorithm::Ppo(_) => "ppo",
             Algorithm::Npg(_) => "npg",
             Algorithm::Cloning(_) => "bc",
+            Algorithm::Dagger(_) => "dagger",
             Algorithm::Dapg(_) => "dapg",
             Algorithm::Sac(_) => "sac",
         }
@@ -41,7 +44,12 @@ impl Algorithm {
 
     /// Whether it learns from demonstrations.
     pub fn needs_demonstrations(&self) -> bool {
-        matches!(self, Algorithm::Cloning(_) | Algorithm::Dapg(_))
+        matches!(self, Algorithm::Cloning(_) | Algorithm::Dagger(_) | Algorithm::Dapg(_))
+    }
+
+    /// Whether its teacher also says what to do in states that the policy comes to.
+    pub fn needs_corrections(&self) -> bool {
+        matches!(self, Algorithm::Dagger(_))
     }
 }
 
@@ -68,10 +76,16 @@ pub struct Settings {
 impl Settings {
     /// The distribution of actions.
     pub(super) fn head(&self) -> Head {
-        let [first, least] = self.log_std;
+        let [log_std, least] = self.log_std;
         match self.algorithm {
-            Algorithm::Sac(_) => Head::Squashed(Squashed { first, least }),
-            _ => Head::Gaussian { log_std: first, least },
+            Algorithm::Sac(_) => Head::Squashed(self.squashed()),
+            _ => Head::Gaussian { log_std, least },
         }
+    }
+
+    /// The distribution of actions where they are squashed.
+    pub(super) fn squashed(&self) -> Squashed {
+        let [first, least] = self.log_std;
+        Squashed { first, least }
     }
 }

@@ -39,7 +39,7 @@ pub use config::{Config, Teaching};
 pub use log::{COLUMNS, Row};
 
 use crate::error::PolicyError;
-use crate::learn::{Collector, Demonstrations, Learner};
+use crate::learn::{Collector, Demonstrations, Learner, Teacher};
 use env::Env;
 use log::Log;
 use std::path::{Path, PathBuf};
@@ -85,18 +85,29 @@ impl Run {
         Ok(run)
     }
 
-    /// Lets the run learn from demonstrations in environments like `env`, and keeps them in its folder.
+    /// Lets the run learn from demonstrations, and keeps them in its folder.
     ///
     /// # Errors
     /// The run has begun; the file cannot be written.
-    pub fn teach(&mut self, env: &Env, mut demonstrations: Demonstrations) -> Result<(), PolicyError> {
+    pub fn teach(&mut self, mut demonstrations: Demonstrations) -> Result<(), PolicyError> {
         if self.iterations() > 0 {
             let message = "it has begun without these demonstrations: begin another run with them";
             return Err(PolicyError::run(&self.folder, message));
         }
-        demonstrations.save(env, &self.folder.join(DEMONSTRATIONS))?;
+        demonstrations.save(&self.folder.join(DEMONSTRATIONS))?;
         self.learner.teach(demonstrations);
         Ok(())
+    }
+
+    /// Lets teachers, one made for each environment, correct what the policy does: what dataset aggregation learns from.
+    ///
+    /// # Errors
+    /// A teacher cannot be made.
+    pub fn correct(
+        &mut self,
+        make: impl FnMut(&Env) -> Result<Box<dyn Teacher + Send>, PolicyError>,
+    ) -> Result<(), PolicyError> {
+        self.collector.teach(make)
     }
 
     /// What the run in a folder is of.
@@ -131,8 +142,14 @@ impl Run {
             let message = "its seed or [learning] differs from the checkpoint's: undo the change, or train from a copy of the file";
             return Err(PolicyError::run(&folder.join(CONFIG), message));
         }
-        if config.learning.algorithm.needs_demonstrations() {
-            learner.teach(Demonstrations::open(env, &folder.join(DEMONSTRATIONS))?);
+        let (algorithm, file) = (config.learning.algorithm, folder.join(DEMONSTRATIONS));
+        if algorithm.needs_demonstrations() {
+            let mut demonstrations = Demonstrations::open(env, &file)?;
+            if algorithm.needs_corrections() {
+                let corrected = learner.iterations * config.learning.episodes;
+                demonstrations.keep_corrected(corrected).map_err(|error| error.within(&file))?;
+            }
+            learner.teach(demonstrations);
         }
         let collector = Collector::new(env, sizes[0], sizes[1])?;
         let kept = learner.iterations;
@@ -186,6 +203,12 @@ impl Run {
     pub fn keep(&mut self) -> Result<(), PolicyError> {
         if self.kept == self.iterations() && self.folder.join(CHECKPOINT).exists() {
             return Ok(());
+        }
+        // What was corrected comes first: of more than the checkpoint knows, the rest is left out when the run goes on.
+        if self.config.learning.algorithm.needs_corrections()
+            && let Some(demonstrations) = self.learner.demonstrations()
+        {
+            demonstrations.save(&self.folder.join(DEMONSTRATIONS))?;
         }
         self.learner.save_policy(&self.config.id, &self.folder.join(POLICY))?;
         self.learner.save(&self.config.id, &self.folder.join(CHECKPOINT))?;

@@ -67,7 +67,7 @@ fn who_fails_is_no_teacher() {
 fn files_hold_them() {
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("demonstrations.safetensors");
     let mut one = play(ID, &mut Policy::Zero, 2, 0.1, 5).unwrap();
-    one.save(&env(ID), &file).unwrap();
+    one.save(&file).unwrap();
     assert_eq!(one, Demonstrations::open(&env(ID), &file).unwrap());
     let says = |id: &str| Demonstrations::open(&env(id), &file).map(drop).unwrap_err().to_string();
     assert!(says("hive/FrankaReach-v0").contains(&format!("it holds demonstrations in {ID}")));
@@ -80,6 +80,46 @@ fn files_hold_them() {
     std::fs::write(&file, &changed).unwrap();
     assert!(says(ID).contains("the tensor \"observations\" is"), "{}", says(ID));
     assert!(Policy::open(&file).map(drop).unwrap_err().to_string().contains("its card is not understood"));
+}
+
+/// A clone of two short demonstrations strays from its teacher's way; corrected there, it finds back.
+#[test]
+fn corrections_teach_what_demonstrations_do_not_show() {
+    let env = env(ID);
+    let mut collector = Collector::new(&env, 4, 1).unwrap();
+    let away = |mut learner: Learner, collector: &mut Collector, name: &str| {
+        learner.teach(play(ID, &mut Bent, 2, 0.0, 3).unwrap());
+        (0..12).for_each(|_| _ = learner.iterate(collector).unwrap());
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        learner.save_policy(ID, &path).unwrap();
+        let mut policy = Policy::open(&path).unwrap();
+        (70..80).map(|seed| mean_error(&mut policy, seed)).sum::<f64>() / 10.0
+    };
+    let settings = |algorithm: Settings| Settings { episodes: 4, ..algorithm };
+    let clone =
+        away(Learner::new(settings(Settings::cloning()), 3, &env), &mut collector, "cloned.safetensors");
+    let mut learner = Learner::new(settings(Settings::dagger()), 3, &env);
+    learner.teach(play(ID, &mut Bent, 2, 0.0, 3).unwrap());
+    let why = learner.iterate(&mut collector).unwrap_err().to_string();
+    assert!(why.contains("it is to correct what the policy does, and was given no environments"), "{why}");
+    collector.teach(|_| Ok(Box::new(Bent))).unwrap();
+    let learner = Learner::new(settings(Settings::dagger()), 3, &env);
+    let corrected = away(learner, &mut collector, "corrected.safetensors");
+    assert!(corrected < 0.5 * clone && corrected < 0.05, "{corrected} and {clone}");
+}
+
+/// How far a policy's actions are from its teacher's in an episode, on average.
+fn mean_error(policy: &mut Policy, seed: u64) -> f64 {
+    let (mut env, mut sum, steps) = (env(ID), 0.0, 100);
+    env.reset(Some(seed)).unwrap();
+    let mut action = vec![0.0; env.action_len()];
+    for _ in 0..steps {
+        policy.action(&env, &mut action).unwrap();
+        let away = (0..action.len()).map(|k| (action[k] - bent(env.observation(), k)).abs());
+        sum += away.sum::<f64>() / (steps * action.len()) as f64;
+        env.step(&action).unwrap();
+    }
+    sum
 }
 
 #[test]

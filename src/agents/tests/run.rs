@@ -54,12 +54,20 @@ fn bytes(folder: &Path, file: &str) -> Vec<u8> {
     std::fs::read(folder.join(file)).unwrap()
 }
 
+/// Corrects the policy where that is learnt from: no muscle is to be excited.
+fn correct(run: &mut Run) {
+    if run.config().learning.algorithm.needs_corrections() {
+        run.correct(|_| Ok(Box::new(Policy::Zero))).unwrap();
+    }
+}
+
 /// Shows what is to be learnt, where it is learnt from that: which poses an elbow reaches by itself.
 fn teach(run: &mut Run) {
     if run.config().learning.algorithm.needs_demonstrations() {
         let (mut env, lessons) = (env(ID), Lessons { episodes: 2, noise: 0.1 });
         let shown = Demonstrations::play(&mut env, &mut Policy::Zero, lessons, 3, |_| ()).unwrap();
-        run.teach(&env, shown).unwrap();
+        run.teach(shown).unwrap();
+        correct(run);
     }
 }
 
@@ -70,6 +78,7 @@ fn an_interrupted_run_ends_in_the_same_bits() {
         ("npg", Settings::npg()),
         ("ppo", Settings::ppo()),
         ("bc", Settings::cloning()),
+        ("dagger", Settings::dagger()),
         ("dapg", Settings::dapg()),
         ("sac", sac()),
     ] {
@@ -85,6 +94,7 @@ fn an_interrupted_run_ends_in_the_same_bits() {
         drop(run);
         assert_eq!(rows(&parts).len(), 4, "a header and three rows");
         let mut run = Run::resume(&parts, &env(ID), [3, 2]).unwrap();
+        correct(&mut run);
         assert_eq!(run.iterations(), 2);
         while !run.is_finished() {
             let row = run.iterate().unwrap();
@@ -135,6 +145,9 @@ fn what_is_no_run_is_refused() {
     run.keep().unwrap();
     let again = Run::create(&place, config(Settings::ppo()), &env(ID), [1, 1]).map(drop).map_err(says);
     assert!(again.unwrap_err().contains("not empty"));
+    let single = Settings { fit: Fit { batch: 1, ..sac().fit }, ..sac() };
+    let why = Run::create(&folder("single"), config(single), &env(ID), [1, 1]).map(drop).map_err(says);
+    assert!(why.unwrap_err().contains("fit.batch must be at least 2 for sac"));
     assert!(resumed(&place, "hive/ElbowPose-v0").unwrap_err().contains("it was trained on hive/myoElbow"));
     let text = std::fs::read_to_string(place.join("run.toml")).unwrap();
     for (from, to) in [("seed = 3", "seed = 4"), ("gamma = 0.97", "gamma = 0.9")] {

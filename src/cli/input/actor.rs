@@ -52,7 +52,7 @@ impl ActorArguments {
         match (&self.controller, &self.policy[..]) {
             (Some(_), _) => Ok(None),
             (None, BEST) => shipped(id),
-            (None, name) => policy(name, id).map(Some),
+            (None, name) => policy(name, Some(id)).map(Some),
         }
     }
 
@@ -150,7 +150,8 @@ impl Teacher for Actor {
     }
 }
 
-fn fault(env: &Env, failure: Failure) -> PolicyError {
+/// A failure as that of a teacher.
+pub fn fault(env: &Env, failure: Failure) -> PolicyError {
     PolicyError::Teacher { id: env.spec().id.clone(), message: failure.to_string() }
 }
 

@@ -9,16 +9,15 @@ pub const BEST: &str = "best";
 /// The policy of a name, for the environments of an id: best, random, zero, or a file that holds one.
 ///
 /// # Errors
-/// None is shipped for the id; the file cannot be read, or holds no policy.
-pub fn policy(name: &str, id: &str) -> Result<Policy, Failure> {
+/// None is shipped for the id, or best is asked for without one; the file cannot be read, or holds no policy.
+pub fn policy(name: &str, id: Option<&str>) -> Result<Policy, Failure> {
     match name {
-        BEST => shipped(id)?.ok_or_else(|| {
-            let ids: Vec<_> = assets::policies().collect();
-            Failure::usage(format!(
-                "no policy is shipped for {id}; there are some for {}; `robohive train {id}` trains one",
-                ids.join(", ")
-            ))
-        }),
+        BEST => {
+            let id = id.ok_or_else(|| {
+                Failure::usage("best is the policy that is shipped for an id: give an ID after it")
+            })?;
+            Policy::best(id).map_err(Failure::usage)
+        }
         "random" => Ok(Policy::random(0)),
         "zero" => Ok(Policy::Zero),
         path => Policy::open(path).map_err(|error| {

@@ -3,7 +3,7 @@
 use super::playing::{Playing, interval};
 use crate::failure::Failure;
 use crate::input::library::Making;
-use crate::input::policy::{BEST, policy};
+use crate::input::policy::policy;
 use crate::terminal::{show, show_json};
 use agents::Policy;
 use clap::{Args, ValueHint};
@@ -50,12 +50,7 @@ pub struct Evaluate {
 /// Runs the command.
 pub fn run(a: &Evaluate) -> Result<(), Failure> {
     let given = a.id.as_deref();
-    let policy = match (&a.policy[..], given) {
-        (BEST, None) => {
-            return Err(Failure::usage("best is the policy that is shipped for an id: give an ID after it"));
-        }
-        (name, id) => policy(name, id.unwrap_or_default())?,
-    };
+    let policy = policy(&a.policy, given)?;
     let trained = match &policy {
         Policy::Trained(trained) => Some(trained.card().id.clone()),
         _ => None,

@@ -1,9 +1,10 @@
 //! Who shows a training how its task is done.
 
+use super::train::failure;
 use crate::failure::Failure;
-use crate::input::actor::teacher;
+use crate::input::actor::{fault, teacher};
 use agents::learn::{Demonstrations, Lessons};
-use agents::run::{Config, Teaching};
+use agents::run::{Config, Run, Teaching};
 use clap::Args;
 use env::Env;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -14,7 +15,7 @@ const DEFAULT: Lessons = Lessons { episodes: 50, noise: 0.05 };
 /// Options of demonstrations.
 #[derive(Args)]
 pub struct TeacherArguments {
-    /// Who shows how it is done, for bc and dapg: a controller's name, or the file of a policy
+    /// Who shows how it is done, for bc, dagger and dapg: a controller's name, or the file of a policy
     #[arg(long, value_name = "NAME|FILE", conflicts_with = "resume")]
     teacher: Option<String>,
     /// Episodes in which the teacher succeeds [default: 50, or what CONFIG says]
@@ -58,11 +59,11 @@ pub fn teach(config: &Config, env: &Env, quiet: bool) -> Result<Option<Demonstra
     let Teaching { by, lessons } = match (&config.teacher, needed) {
         (None, false) => return Ok(None),
         (None, true) => {
-            return Err(Failure::usage("bc and dapg learn from a teacher: add --teacher NAME|FILE"));
+            return Err(Failure::usage("bc, dagger and dapg learn from a teacher: add --teacher NAME|FILE"));
         }
         (Some(_), false) => {
             return Err(Failure::usage(
-                "only bc and dapg learn from a teacher: add --algo bc or --algo dapg",
+                "only bc, dagger and dapg learn from a teacher: add --algo bc, dagger or dapg",
             ));
         }
         (Some(teaching), true) => teaching,
@@ -76,4 +77,23 @@ pub fn teach(config: &Config, env: &Env, quiet: bool) -> Result<Option<Demonstra
     let played = Demonstrations::play(&mut env, &mut teacher, *lessons, config.seed, tell);
     bar.finish_and_clear();
     played.map(Some).map_err(Failure::usage)
+}
+
+/// Lets the teacher of a run correct what its policy does, where that is learnt from.
+///
+/// # Errors
+/// The run does not say who its teacher is; it is no teacher for the environment.
+pub fn correct(run: &mut Run) -> Result<(), Failure> {
+    if !run.config().learning.algorithm.needs_corrections() {
+        return Ok(());
+    }
+    let Some(Teaching { by, .. }) = run.config().teacher.clone() else {
+        return Err(Failure::usage(
+            "dagger asks a teacher in every iteration, and run.toml names none: add a [teacher]",
+        ));
+    };
+    let made = run.correct(|env| {
+        teacher(&by, env).map(|actor| Box::new(actor) as _).map_err(|failure| fault(env, failure))
+    });
+    made.map_err(failure)
 }

@@ -1,6 +1,6 @@
 //! `train`: learn a policy, in a folder from which it can be resumed.
 
-use super::teacher::{TeacherArguments, teach};
+use super::teacher::{TeacherArguments, correct, teach};
 use crate::failure::Failure;
 use crate::input::library::Making;
 use crate::input::solver::SolverArgument;
@@ -30,11 +30,12 @@ by the loss of the machine, and resumed by --resume ends as one that was not.
 
 Algorithms: npg, the natural policy gradient (Kakade, 2001; Rajeswaran et al., 2017), with the networks, episodes and steps of \
 MyoSuite's published runs; ppo, proximal policy optimisation (Schulman et al., 2017); sac, soft actor-critic (Haarnoja et al., 2018) \
-with layer normalisation and returns of several steps; bc, behaviour cloning of a teacher; dapg, the natural policy gradient with \
-demonstrations (Rajeswaran et al., 2018).
+with layer normalisation and returns of several steps; bc, behaviour cloning of a teacher; dagger, the same of a teacher who also says \
+what to do in each state that the policy comes to (Ross et al., 2011); dapg, the natural policy gradient with demonstrations (Rajeswaran \
+et al., 2018).
 
 A teacher is a controller (`robohive run ID --controller list`) or a policy. Its successful episodes are kept in the folder, as \
-demonstrations.safetensors, so that a run resumes without it.
+demonstrations.safetensors, so that a run resumes without it; but dagger asks it again and again.
 
 Examples:
   robohive train hive/myoElbowPose1D6MRandom-v0 --iterations 2 --out elbow
@@ -42,7 +43,8 @@ Examples:
   robohive train elbow/run.toml --seed 2 --out elbow2
   robohive train hive/FrankaReach-v0 --algo ppo --iterations 1 --out reach --quiet
   robohive train hive/myoElbowPose1D6MRandom-v0 --algo sac --iterations 1 --out soft --quiet
-  robohive train hive/FrankaReach-v0 --algo bc --teacher reach --demonstrations 5 --iterations 1 --out clone"
+  robohive train hive/FrankaReach-v0 --algo bc --teacher reach --demonstrations 5 --iterations 1 --out clone
+  robohive train hive/FrankaReach-v0 --algo dagger --teacher reach --demonstrations 2 --iterations 1 --out corrected --quiet"
 )]
 pub struct Train {
     /// Id of the environment, or the run.toml of a run to make again
@@ -91,6 +93,8 @@ pub enum AlgorithmName {
     Sac,
     /// Behaviour cloning: only from demonstrations
     Bc,
+    /// Behaviour cloning of a teacher who corrects the policy's own episodes (dataset aggregation)
+    Dagger,
     /// The natural policy gradient with demonstrations
     Dapg,
 }
@@ -128,7 +132,8 @@ fn open(a: &Train) -> Result<(PathBuf, Run), Failure> {
     let sizes = [SIDE_BY_SIDE, if a.threads == 0 { cores } else { a.threads }];
     if let Some(folder) = &a.resume {
         let config = Run::config_of(folder).map_err(failure)?;
-        let run = Run::resume(folder, &make(a, &config)?, sizes).map_err(failure)?;
+        let mut run = Run::resume(folder, &make(a, &config)?, sizes).map_err(failure)?;
+        correct(&mut run)?;
         return Ok((folder.clone(), run));
     }
     let config = config(a)?;
@@ -139,7 +144,8 @@ fn open(a: &Train) -> Result<(PathBuf, Run), Failure> {
     let demonstrations = teach(&config, &env, a.quiet)?;
     let mut run = Run::create(&folder, config, &env, sizes).map_err(failure)?;
     if let Some(demonstrations) = demonstrations {
-        run.teach(&env, demonstrations).map_err(failure)?;
+        run.teach(demonstrations).map_err(failure)?;
+        correct(&mut run)?;
     }
     Ok((folder, run))
 }
@@ -167,6 +173,7 @@ fn config(a: &Train) -> Result<Config, Failure> {
         Some(AlgorithmName::Npg) => config.learning = Settings::npg(),
         Some(AlgorithmName::Ppo) => config.learning = Settings::ppo(),
         Some(AlgorithmName::Bc) => config.learning = Settings::cloning(),
+        Some(AlgorithmName::Dagger) => config.learning = Settings::dagger(),
         Some(AlgorithmName::Sac) => config.learning = Settings::sac(),
         Some(AlgorithmName::Dapg) => config.learning = Settings::dapg(),
     }
@@ -218,7 +225,7 @@ pub fn environment(making: Making, config: &Config) -> Result<Env, Failure> {
 }
 
 /// What was wrong: with what was given, or with what happened.
-fn failure(error: PolicyError) -> Failure {
+pub fn failure(error: PolicyError) -> Failure {
     match error {
         PolicyError::Env(_) | PolicyError::Reward { .. } => Failure::new(error),
         error => Failure::usage(error),

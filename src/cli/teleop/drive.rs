@@ -45,7 +45,7 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
         keep_input(input, out)?;
     }
     files::check(a)?;
-    let policy = a.policy.as_deref().map(|name| policy(name, &source.id)).transpose()?;
+    let policy = a.policy.as_deref().map(|name| policy(name, Some(&source.id))).transpose()?;
     let painters = a.film.painters(a.visual)?;
     let interrupt = Interrupt::listen().map_err(Failure::new)?;
     // A signal ends the motion of a robot to where an episode begins, which then fails.

@@ -53,7 +53,7 @@ fn who_teaches_is_said_where_it_is_needed() {
     let id = "hive/FrankaReach-v0";
     for (arguments, why) in [
         (&["--algo", "bc"][..], "add --teacher NAME|FILE"),
-        (&["--teacher", "reach"], "only bc and dapg learn from a teacher"),
+        (&["--teacher", "reach"], "only bc, dagger and dapg learn from a teacher"),
         (
             &["--algo", "dapg", "--demonstrations", "3"],
             "--demonstrations and --demonstration-noise are a teacher's",
