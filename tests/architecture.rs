@@ -64,7 +64,7 @@ const ORDER: [(&str, &[&str]); 38] = [
         ],
     ),
     ("robohive-clients", &["mjcf", "protocol", "robot", "wire"]),
-    ("robohive-digest", &["assets", "physics", "mjcf", "render"]),
+    ("robohive-digest", &["agents", "assets", "env", "physics", "mjcf", "render"]),
     (
         "robohive-library",
         &[

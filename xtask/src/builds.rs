@@ -1,5 +1,5 @@
 //! The same bits from every build: unoptimised, with wide vectors, static, and WebAssembly with and without vectors. Each build
-//! steps the models of `validation/digest`, draws their pictures and compares its hashes with the recorded ones. And the
+//! steps the models of `validation/digest`, draws their pictures, trains its policies and compares its hashes with the recorded ones. And the
 //! builds with fewer features.
 
 use crate::built::{PROFILE, SAME_FEATURES};
@@ -116,27 +116,33 @@ fn asks_for_loader(elf: &[u8]) -> bool {
     (0..count).any(|k| word(table + k * size) as u32 == 3)
 }
 
-/// The digest as a module without and with vectors, under node.
+/// The digest as a module without and with vectors, under node; with vectors, as pages are, it trains too.
 fn web_builds(profile: &str) -> Result<Vec<Missing>, String> {
-    let mut missing = Vec::new();
-    for (name, flags) in [("WebAssembly", ""), ("WebAssembly with vectors", "-C target-feature=+simd128")] {
-        println!("-- {name}");
-        missing.extend(web_build(profile, flags)?);
-    }
+    println!("-- WebAssembly");
+    let mut missing = Vec::from_iter(web_build(profile, "", &[], &["training_"])?);
+    println!("-- WebAssembly with vectors");
+    let vectors = "-C target-feature=+simd128";
+    missing.extend(web_build(profile, vectors, &["--features", "trainings"], &[])?);
     Ok(missing)
 }
 
-fn web_build(profile: &str, flags: &str) -> Result<Option<Missing>, String> {
+/// The module of a profile with these flags and features, whose hashes are compared, but for some that are left out.
+fn web_build(
+    profile: &str,
+    flags: &str,
+    features: &[&str],
+    left_out: &[&str],
+) -> Result<Option<Missing>, String> {
     if !web_target_installed()? {
         return Ok(Some(web_target_missing("hashes from WebAssembly")));
     }
     let module = ["--lib", "--crate-type", "cdylib", "--no-default-features", "--target", WEB_TARGET];
-    digest(&[&["rustc", "--quiet", "--profile", profile][..], &module].concat(), &[], flags)?;
+    digest(&[&["rustc", "--quiet", "--profile", profile][..], &module, features].concat(), &[], flags)?;
     if !installed("node") {
         return Ok(Some(node_missing("hashes from WebAssembly")));
     }
     let module = target_folder()?.join(WEB_TARGET).join(profile).join("robohive_digest.wasm");
-    succeed(Command::new("node").arg("validation/digest/run.mjs").arg(module))?;
+    succeed(Command::new("node").arg("validation/digest/run.mjs").arg(module).args(left_out))?;
     Ok(None)
 }
 

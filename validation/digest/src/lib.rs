@@ -1,4 +1,4 @@
-//! Hashes of final states and of pictures: one number each, equal on every machine, build and number of threads.
+//! Hashes of final states, of pictures and of trainings: one number each, equal on every machine, build and number of threads.
 //!
 //! The hash of a state takes in every bit of the compiled model and of all that a simulation holds at its end. The models lie in
 //! the program, so that it also runs where there is no file system.
@@ -6,6 +6,8 @@
 mod fnv;
 mod models;
 mod pictures;
+#[cfg(feature = "trainings")]
+mod trainings;
 #[cfg(target_arch = "wasm32")]
 mod web;
 
@@ -26,21 +28,38 @@ pub const ENVIRONMENTS: usize = 4;
 /// The recorded hashes, lines of a name and 16 hexadecimal digits.
 pub const TABLE: &str = include_str!("../digests.txt");
 
-/// Names of the table, in its order: models, then pictures.
+/// A hash by its name, and what computes it on a number of threads.
+type Row = (&'static str, Box<dyn Fn(usize) -> Result<u64, String>>);
+
+/// All hashes, in the order of the table: models, pictures, and then trainings, if there are any.
+fn rows() -> Vec<Row> {
+    let mut rows: Vec<Row> = Vec::new();
+    rows.extend(MODELS.iter().map(|case| (case.name, Box::new(|threads| digest(case, threads)) as _)));
+    rows.extend(
+        SHOTS.iter().map(|shot| (shot.name, Box::new(|threads| pictures::hash_of(shot, threads)) as _)),
+    );
+    #[cfg(feature = "trainings")]
+    rows.extend(
+        trainings::TRAININGS
+            .iter()
+            .map(|training| (training.name, Box::new(|threads| trainings::hash_of(training, threads)) as _)),
+    );
+    rows
+}
+
+/// Names of the hashes, in the order of the table.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    MODELS.iter().map(|case| case.name).chain(SHOTS.iter().map(|shot| shot.name))
+    rows().into_iter().map(|(name, _)| name)
 }
 
 /// The hash with this number among the [`names`], computed on `threads` threads.
 ///
 /// # Errors
-/// There is no such hash, the model does not load, a state is refused, or a picture cannot be drawn.
+/// There is no such hash, the model does not load, a state is refused, a picture cannot be drawn, or a training fails.
 pub fn hash(number: usize, threads: usize) -> Result<u64, String> {
-    match (MODELS.get(number), SHOTS.get(number.wrapping_sub(MODELS.len()))) {
-        (Some(case), _) => digest(case, threads),
-        (None, Some(shot)) => pictures::hash_of(shot, threads),
-        (None, None) => Err(format!("there is no hash {number}")),
-    }
+    let rows = rows();
+    let (_, compute) = rows.get(number).ok_or_else(|| format!("there is no hash {number}"))?;
+    compute(threads)
 }
 
 /// Hash of `case` after [`STEPS`] steps of [`ENVIRONMENTS`] simulations on `threads` threads.

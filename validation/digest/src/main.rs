@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 const USAGE: &str = "usage: robohive-digest [--threads N] [--table]
 
-Steps every model and draws pictures, prints each hash and whether it is the recorded one; exit code 1 when one is not.
+Steps every model, draws pictures and trains policies, prints each hash and whether it is the recorded one; exit code 1 when one is not.
 With --table prints lines as digests.txt has them, to record hashes again after a change of the numerics.";
 
 fn main() -> ExitCode {
