@@ -14,6 +14,7 @@ mod own_state;
 mod policy;
 mod request;
 mod settings;
+mod training;
 mod turns;
 mod vector;
 mod window;
@@ -32,6 +33,8 @@ mod _core {
     use super::film::write_video;
     #[pymodule_export]
     use super::policy::{PyPolicy, policies};
+    #[pymodule_export]
+    use super::training::{PyRun, complete_config, learning_settings, run_config, run_policy, run_rows};
     #[pymodule_export]
     use super::vector::PyVecEnv;
     #[pymodule_export]

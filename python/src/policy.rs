@@ -44,7 +44,7 @@ pub fn policies() -> Vec<&'static str> {
 }
 
 /// The exception for an error of a policy, with its text.
-fn raised(py: Python<'_>, error: &PolicyError) -> PyErr {
+pub fn raised(py: Python<'_>, error: &PolicyError) -> PyErr {
     match error {
         PolicyError::Env(error) => exception(py, error),
         PolicyError::File { .. } => PyOSError::new_err(error.to_string()),

@@ -1,6 +1,7 @@
 //! Keyword arguments and dictionaries of Python to the settings of an environment, which are TOML.
 
 use env::Arguments;
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
@@ -12,8 +13,35 @@ use toml::{Table, Value};
 /// # Errors
 /// A key that is no string, or a value that is no setting: `TypeError`, with the place (`visual_randomization.lights[0]`).
 pub fn arguments(settings: &Bound<'_, PyDict>) -> PyResult<Arguments> {
-    let table = below("", settings)?;
-    table.try_into().map_err(|error: toml::de::Error| PyValueError::new_err(error.to_string()))
+    table(settings)?.try_into().map_err(|error: toml::de::Error| PyValueError::new_err(error.to_string()))
+}
+
+/// A dictionary as a table.
+///
+/// # Errors
+/// Those of [`arguments`].
+pub fn table(settings: &Bound<'_, PyDict>) -> PyResult<Table> {
+    below("", settings)
+}
+
+/// A value of a table as Python has it.
+pub fn python<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+    match value {
+        Value::String(text) => text.into_bound_py_any(py),
+        Value::Integer(number) => number.into_bound_py_any(py),
+        Value::Float(number) => number.into_bound_py_any(py),
+        Value::Boolean(flag) => flag.into_bound_py_any(py),
+        Value::Datetime(time) => time.to_string().into_bound_py_any(py),
+        Value::Array(values) => {
+            let values = values.iter().map(|value| python(py, value)).collect::<PyResult<Vec<_>>>()?;
+            Ok(PyList::new(py, values)?.into_any())
+        }
+        Value::Table(table) => {
+            let dict = PyDict::new(py);
+            table.iter().try_for_each(|(key, value)| dict.set_item(key, python(py, value)?))?;
+            Ok(dict.into_any())
+        }
+    }
 }
 
 fn below(place: &str, dict: &Bound<'_, PyDict>) -> PyResult<Table> {

@@ -2,5 +2,6 @@
 
 from robohive.ray.collector import Collector
 from robohive.ray.plan import LostEpisodes
+from robohive.ray.train import train
 
-__all__ = ["Collector", "LostEpisodes"]
+__all__ = ["Collector", "LostEpisodes", "train"]

@@ -10,6 +10,20 @@ use super::settings::{Algorithm, Settings};
 use crate::nets::Activation;
 
 impl Settings {
+    /// Those of an algorithm by its name, one of [`Algorithm::NAMES`].
+    pub fn named(algorithm: &str) -> Option<Self> {
+        let settings = match algorithm {
+            "npg" => Self::npg(),
+            "ppo" => Self::ppo(),
+            "sac" => Self::sac(),
+            "bc" => Self::cloning(),
+            "dagger" => Self::dagger(),
+            "dapg" => Self::dapg(),
+            _ => return None,
+        };
+        Some(settings)
+    }
+
     /// The natural policy gradient. The policy's network, 96 episodes an iteration, the step size and the passes over the values are those of the NPG
     /// runs that MyoSuite published; the rest are values that work here.
     pub fn npg() -> Self {

@@ -30,6 +30,9 @@ pub enum Algorithm {
 }
 
 impl Algorithm {
+    /// All names.
+    pub const NAMES: [&str; 6] = ["npg", "ppo", "sac", "bc", "dagger", "dapg"];
+
     /// Its name in short.
     pub fn name(&self) -> &'static str {
         match self {
