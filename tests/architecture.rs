@@ -164,7 +164,7 @@ const OTHERS: [(&str, &[&str]); 24] = [
     ("robohive-render", &["font8x8", "rayon", "wide"]),
     ("robohive-render-gpu", &["bytemuck", "pollster", "wgpu"]),
     ("robohive-env", &["rayon", "serde", "toml"]),
-    ("robohive-agents", &["libm", "safetensors", "serde", "serde_json", "toml", "wide"]),
+    ("robohive-agents", &["crc", "libm", "safetensors", "serde", "serde_json", "toml", "wide"]),
     ("robohive-control", &["nalgebra"]),
     ("robohive-record", &[]),
     ("robohive-identify", &["nalgebra", "rayon"]),

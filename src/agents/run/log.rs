@@ -1,10 +1,14 @@
-//! What each iteration was like: rows with the columns of AgentHive's logs, as CSV and as lines of JSON.
+//! What each iteration was like: rows with the columns of AgentHive's logs, as CSV, as lines of JSON and as events for TensorBoard.
 
+use super::events;
 use crate::error::PolicyError;
 use crate::learn::{Iteration, Learner};
 use std::fs::{File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+
+/// TensorBoard reads what has `tfevents` in its name.
+const EVENTS: &str = "events.out.tfevents.robohive";
 
 /// Names of the columns.
 pub const COLUMNS: [&str; 17] = [
@@ -59,31 +63,58 @@ impl Row {
     pub fn get(&self, column: &str) -> f64 {
         COLUMNS.iter().position(|name| *name == column).map_or(f64::NAN, |place| self.0[place])
     }
+
+    /// The event of the row, at a wall time \[s\].
+    fn event(&self, wall_time: f64) -> Vec<u8> {
+        let tags = COLUMNS.map(|column| format!("{}/{column}", group(column)));
+        let values = tags.iter().map(String::as_str).zip(self.0.map(|number| number as f32));
+        events::scalars(wall_time, self.get("num_samples") as i64, values)
+    }
 }
 
-/// Both files, open at their ends.
+/// Under which heading TensorBoard shows a column.
+fn group(column: &str) -> &'static str {
+    match column {
+        "iteration" | "num_samples" | "episodes" | "time" => "time",
+        "kl_dist" | "entropy" | "clipped" | "vf_explained" => "train",
+        _ => "rollout",
+    }
+}
+
+/// The files, open at their ends.
 pub(super) struct Log {
     csv: (PathBuf, File),
     json: (PathBuf, File),
+    events: (PathBuf, File),
+    /// What the iterations so far took \[s\]: the wall time of events.
+    seconds: f64,
 }
 
 impl Log {
     /// Opens the files of a folder with their first `rows` rows; what follows these is left out.
     pub fn open(folder: &Path, rows: u64) -> Result<Self, PolicyError> {
         let header = format!("{}\n", COLUMNS.join(","));
-        Ok(Log {
-            csv: begin(folder.join("log.csv"), &header, rows)?,
-            json: begin(folder.join("log.jsonl"), "", rows)?,
-        })
+        let csv = begin(folder.join("log.csv"), &header, rows)?;
+        let json = begin(folder.join("log.jsonl"), "", rows)?;
+        let (mut content, mut seconds) = (events::version(), 0.0);
+        for row in read(folder)? {
+            seconds += row.get("time");
+            content.extend(row.event(seconds));
+        }
+        let path = folder.join(EVENTS);
+        let file = replace(&path, &content).map_err(|error| PolicyError::run(&path, error))?;
+        Ok(Log { csv, json, events: (path, file), seconds })
     }
 
     /// Adds a row.
     pub fn add(&mut self, row: &Row) -> Result<(), PolicyError> {
         let numbers: Vec<String> = row.0.iter().map(f64::to_string).collect();
-        append(&mut self.csv, &format!("{}\n", numbers.join(",")))?;
+        append(&mut self.csv, format!("{}\n", numbers.join(",")).as_bytes())?;
         let pairs: serde_json::Map<String, serde_json::Value> =
             COLUMNS.iter().zip(row.0).map(|(name, number)| ((*name).to_owned(), number.into())).collect();
-        append(&mut self.json, &format!("{}\n", serde_json::Value::Object(pairs)))
+        append(&mut self.json, format!("{}\n", serde_json::Value::Object(pairs)).as_bytes())?;
+        self.seconds += row.get("time");
+        append(&mut self.events, &row.event(self.seconds))
     }
 }
 
@@ -125,10 +156,7 @@ fn begin(path: PathBuf, header: &str, rows: u64) -> Result<(PathBuf, File), Poli
         }
         let kept: String =
             std::iter::once(header.to_owned()).chain(lines.map(|line| format!("{line}\n"))).collect();
-        let unfinished = path.with_extension("unfinished");
-        std::fs::write(&unfinished, kept)?;
-        std::fs::rename(&unfinished, &path)?;
-        OpenOptions::new().append(true).open(&path)
+        replace(&path, kept.as_bytes())
     };
     match open() {
         Ok(file) => Ok((path, file)),
@@ -136,6 +164,14 @@ fn begin(path: PathBuf, header: &str, rows: u64) -> Result<(PathBuf, File), Poli
     }
 }
 
-fn append((path, file): &mut (PathBuf, File), line: &str) -> Result<(), PolicyError> {
-    file.write_all(line.as_bytes()).map_err(|error| PolicyError::run(path, error))
+/// Gives a file another content at once, and opens it at its end.
+fn replace(path: &Path, content: &[u8]) -> std::io::Result<File> {
+    let unfinished = path.with_file_name("log.unfinished");
+    std::fs::write(&unfinished, content)?;
+    std::fs::rename(&unfinished, path)?;
+    OpenOptions::new().append(true).open(path)
+}
+
+fn append((path, file): &mut (PathBuf, File), content: &[u8]) -> Result<(), PolicyError> {
+    file.write_all(content).map_err(|error| PolicyError::run(path, error))
 }

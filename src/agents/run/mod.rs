@@ -3,6 +3,20 @@
 //! A run is a folder: `run.toml` says what is trained and how, `log.csv` and `log.jsonl` have a row for each iteration, `checkpoint.safetensors` is
 //! where it goes on, `demonstrations.safetensors` is what it learns from besides, and `policy.safetensors` is what acts. Rows after the last checkpoint are made again when it goes on: with the same numbers.
 //!
+//! `events.out.tfevents.robohive` has the same rows for TensorBoard: an event for each iteration, with a scalar for each column, in single
+//! precision. Its step is `num_samples`, the environment's steps so far; its wall time is the sum of `time` so far \[s\], which differs from
+//! machine to machine as `time` does, and leaves out the pauses of a run that was interrupted. TensorBoard's
+//! relative time is thus the time that learning took; dates are those of the beginning of 1970. Tags are names of columns within groups:
+//!
+//! | group | columns |
+//! |---|---|
+//! | `rollout/` | what the episodes were like: `stoc_pol_mean` … `faults` |
+//! | `train/` | what the update was like: `kl_dist`, `entropy`, `clipped`, `vf_explained` |
+//! | `time/` | `iteration`, `num_samples`, `episodes`, `time` |
+//!
+//! Numbers that are NaN are written too: TensorBoard marks them. The file is made again from `log.csv` when a run goes on, so that it has
+//! each iteration once, also where a run began without it; a TensorBoard that is open meanwhile may keep reading the old file.
+//!
 //! ```
 //! use robohive_agents::{Policy, learn::Settings, run::{Config, Run}};
 //! # use env as robohive_env;
@@ -33,6 +47,7 @@
 //! ```
 
 mod config;
+mod events;
 mod log;
 
 pub use config::{Config, Teaching};

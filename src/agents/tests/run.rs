@@ -50,6 +50,24 @@ fn rows(folder: &Path) -> Vec<String> {
     text.lines().map(|line| line.rsplit_once(',').unwrap().0.to_owned()).collect()
 }
 
+/// Wall times \[s\] of the events, and what else they hold: all but the time of the iteration, which is last, and checksums.
+fn events(folder: &Path) -> (Vec<f64>, Vec<Vec<u8>>) {
+    let file = bytes(folder, "events.out.tfevents.robohive");
+    let (mut rest, mut times, mut contents) = (&file[..], Vec::new(), Vec::new());
+    while let Some((length, framed)) = rest.split_first_chunk() {
+        let (event, after) = framed[4..].split_at(u64::from_le_bytes(*length) as usize);
+        match event.strip_prefix(&[0x09]).and_then(|event| event.split_first_chunk()) {
+            Some((time, scalars)) => {
+                times.push(f64::from_le_bytes(*time));
+                contents.push(scalars[..scalars.len() - 4].into());
+            }
+            None => contents.push(event.into()),
+        }
+        rest = &after[4..];
+    }
+    (times, contents)
+}
+
 fn bytes(folder: &Path, file: &str) -> Vec<u8> {
     std::fs::read(folder.join(file)).unwrap()
 }
@@ -105,6 +123,13 @@ fn an_interrupted_run_ends_in_the_same_bits() {
         }
         assert_eq!(rows(&whole), rows(&parts));
         assert_eq!(rows(&whole)[0].split(',').count() + 1, COLUMNS.len());
+        let (times, contents) = events(&parts);
+        assert!(contents.len() == 5 && contents == events(&whole).1, "a version and four iterations");
+        let mut taken = 0.0;
+        for (time, row) in times.iter().zip(Run::rows_of(&parts).unwrap()) {
+            taken += row.get("time");
+            assert_eq!(*time, taken);
+        }
         let lines = std::fs::read_to_string(parts.join("log.jsonl")).unwrap();
         assert!(
             lines.lines().count() == 4 && lines.lines().all(|line| line.contains("\"success_percentage\":"))

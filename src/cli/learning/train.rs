@@ -22,8 +22,8 @@ const SIDE_BY_SIDE: usize = 16;
 #[derive(Args)]
 #[command(
     after_help = "A run is a folder. run.toml says what is trained and how: edit a copy and give it instead of ID. log.csv and \
-log.jsonl have a row for each iteration; checkpoint.safetensors is where the run resumes; policy.safetensors is what acts: \
-`robohive run ID --policy FOLDER/policy.safetensors`.
+log.jsonl have a row for each iteration; events.out.tfevents.robohive has the same numbers for TensorBoard (`tensorboard --logdir FOLDER`); \
+checkpoint.safetensors is where the run resumes; policy.safetensors is what acts: `robohive run ID --policy FOLDER/policy.safetensors`.
 
 The seed decides everything: the same run makes the same bits on any number of threads, and a run that was interrupted, by Ctrl-C or \
 by the loss of the machine, and resumed by --resume ends as one that was not.
