@@ -15,7 +15,7 @@ from robohive.training import Run, variations
 RUNS = variations(
     "hive/myoElbowPose1D6MRandom-v0",
     seeds=[1, 2],
-    vary={"fit.rate": [1e-3, 3e-4]},
+    vary={"learning.fit.rate": [1e-3, 3e-4]},
     iterations=2,
     settings={"episodes": 4, "hidden": [[8], [8]]},
 )

@@ -108,13 +108,13 @@ def variations(
 ) -> dict[str, dict[str, Any]]:
     """A configuration for every combination of seeds and settings, by a name for its folder.
 
-    >>> list(variations("hive/FrankaReach-v0", seeds=[1, 2], vary={"fit.rate": [1e-3, 3e-4]}))
+    >>> list(variations("hive/FrankaReach-v0", seeds=[1, 2], vary={"learning.fit.rate": [1e-3, 3e-4]}))
     ['fit.rate=0.001-seed1', 'fit.rate=0.001-seed2', 'fit.rate=0.0003-seed1', 'fit.rate=0.0003-seed2']
 
     Args:
         id: Id of the environment.
         seeds: Seeds of the runs.
-        vary: Values of settings by their names, with points between those of tables: `{"algorithm.npg.step": [0.05, 0.1]}`.
+        vary: Values of settings by their paths in a configuration: `{"learning.algorithm.npg.step": [0.05, 0.1]}`.
         options: Those of `configuration`.
 
     Raises:
@@ -123,11 +123,11 @@ def variations(
     base, found = configuration(id, **options), {}
     names, values = list(vary or {}), [list(each) for each in (vary or {}).values()]
     for chosen, seed in itertools.product(itertools.product(*values), list(seeds)):
-        learning = base["learning"]
+        config, parts = {**base, "seed": seed}, []
         for name, value in zip(names, chosen, strict=True):
-            learning = _with(learning, name, name.split("."), value)
-        name = "-".join([*(f"{name}={value}" for name, value in zip(names, chosen, strict=True)), f"seed{seed}"])
-        found[name.replace("/", "_")] = {**base, "seed": seed, "learning": learning}
+            config = _with(config, name, name.split("."), value)
+            parts.append(f"{name.removeprefix('learning.')}={value}".replace("/", "_"))
+        found["-".join([*parts, f"seed{seed}"])] = config
     return found
 
 

@@ -69,12 +69,12 @@ def test_what_is_wrong_is_refused(tmp_path):
 
 
 def test_variations_are_named_by_what_varies():
-    vary = {"fit.rate": [1e-3, 3e-4], "episodes": [8]}
+    vary = {"learning.fit.rate": [1e-3, 3e-4], "learning.episodes": [8]}
     found = training.variations(ELBOW, seeds=range(2), vary=vary, algorithm="ppo")
     assert list(found)[:2] == ["fit.rate=0.001-episodes=8-seed0", "fit.rate=0.001-episodes=8-seed1"]
     last = found["fit.rate=0.0003-episodes=8-seed1"]
     assert (last["seed"], last["learning"]["episodes"], last["learning"]["fit"]["rate"]) == (1, 8, 3e-4)
     assert training.complete(last)["learning"]["fit"]["rate"] == pytest.approx(3e-4, rel=1e-7)
-    for name in ("fit.pace", "rate", "episodes.many"):
+    for name in ("learning.fit.pace", "rate", "seed.many"):
         with pytest.raises(ValueError, match=f"there is no setting '{name}'"):
             training.variations(ELBOW, seeds=[1], vary={name: [1]})
