@@ -30,6 +30,13 @@ pub enum PolicyError {
         /// What is wrong.
         message: String,
     },
+    /// A training has no such setting, or it cannot have this value.
+    Setting {
+        /// Its path in the configuration.
+        key: String,
+        /// What is wrong.
+        message: String,
+    },
     /// The policy is one for another environment.
     Foreign {
         /// The environment's id.
@@ -89,6 +96,7 @@ impl fmt::Display for PolicyError {
             }
             PolicyError::Content { path: None, message } => write!(f, "the policy: {message}"),
             PolicyError::Run { path, message } => write!(f, "the run {}: {message}", path.display()),
+            PolicyError::Setting { key, message } => write!(f, "the setting {key}: {message}"),
             PolicyError::Foreign { id, message } => write!(f, "the policy is not one for {id}: {message}"),
             PolicyError::Unshipped { id } => {
                 let shipped = assets::policies().collect::<Vec<_>>().join(", ");

@@ -9,6 +9,7 @@ use crate::environments::rollout::Rollout;
 use crate::environments::run::Run;
 use crate::learning::evaluate::Evaluate;
 use crate::learning::report::Report;
+use crate::learning::sweep::Sweep;
 use crate::learning::train::Train;
 use crate::models::bench::Bench;
 use crate::models::check::Check;
@@ -63,6 +64,8 @@ pub enum Command {
     Run(Run),
     /// Learn a policy from episodes of an environment
     Train(Train),
+    /// Train over settings and seeds, several runs at a time
+    Sweep(Sweep),
     /// Say how often a policy succeeds, beside zero and random actions
     Evaluate(Evaluate),
     /// Say what several runs reached, with 95 % intervals over seeds

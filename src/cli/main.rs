@@ -34,6 +34,7 @@ fn main() -> ExitCode {
         Command::Info(a) => environments::info::run(&a),
         Command::Run(a) => environments::run::run(&a),
         Command::Train(a) => learning::train::run(&a),
+        Command::Sweep(a) => learning::sweep::run(&a),
         Command::Evaluate(a) => learning::evaluate::run(&a),
         Command::Report(a) => learning::report::run(&a),
         Command::Render(a) => pictures::render::run(&a),

@@ -106,6 +106,12 @@ impl Learner {
 }
 
 impl Card {
+    /// What a checkpoint says of itself.
+    pub(crate) fn of_checkpoint(path: &Path) -> Result<Self, PolicyError> {
+        let bytes = archive::read(path, archive::MAX_CHECKPOINT_BYTES)?;
+        Archive::parse(&bytes).and_then(|archive| Card::of(&archive)).map_err(|error| error.within(path))
+    }
+
     pub(crate) fn of(archive: &Archive<'_>) -> Result<Self, PolicyError> {
         let wrong = |error| PolicyError::content(format!("its card is not understood: {error}"));
         let card: Card = serde_json::from_str(archive.card()).map_err(wrong)?;

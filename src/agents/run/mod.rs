@@ -54,7 +54,7 @@ pub use config::{Config, Teaching};
 pub use log::{COLUMNS, Row};
 
 use crate::error::PolicyError;
-use crate::learn::{Collector, Demonstrations, Learner, Teacher};
+use crate::learn::{Card, Collector, Demonstrations, Learner, Teacher};
 use env::Env;
 use log::Log;
 use std::path::{Path, PathBuf};
@@ -139,6 +139,14 @@ impl Run {
     /// There is no log, or it is damaged.
     pub fn rows_of(folder: &Path) -> Result<Vec<Row>, PolicyError> {
         log::read(folder)
+    }
+
+    /// Iterations that the last checkpoint of the run in a folder has.
+    ///
+    /// # Errors
+    /// There is no checkpoint.
+    pub fn iterations_of(folder: &Path) -> Result<u64, PolicyError> {
+        Card::of_checkpoint(&folder.join(CHECKPOINT)).map(|card| card.iterations)
     }
 
     /// The file of the policy of the run in a folder.

@@ -211,3 +211,27 @@ fn what_is_no_run_is_refused() {
         assert!(error.contains(why) && error.contains("run.toml"), "{error}");
     }
 }
+
+#[test]
+fn settings_change_by_their_paths() {
+    let plain = config(Settings::npg());
+    let changed = plain.with("learning.fit.rate", "0.25").unwrap();
+    assert_eq!(changed.learning.fit.rate, 0.25);
+    assert_eq!(changed.with("learning.fit.rate", "1e-3").unwrap(), plain);
+    assert_eq!(plain.with("learning.hidden", "[[4], [2, 2]]").unwrap().learning.hidden[1], [2, 2]);
+    assert_eq!(plain.with("id", "hive/FrankaReach-v0").unwrap().id, "hive/FrankaReach-v0");
+    let wide = plain.with("environment.target.low", "[0, 1]").unwrap();
+    assert_eq!(wide.settings().unwrap()["environment.target.low"], "[0, 1]");
+    assert_eq!(plain.settings().unwrap()["learning.fit.rate"], "0.001");
+    for (key, value, why) in [
+        ("learning.fit.rte", "1", "there is no \"rte\" among epochs, batch, rate, longest"),
+        ("", "1", "there is no \"\" among id, seed"),
+        ("environment.", "1", "there is no \"\" among"),
+        ("seed.low", "1", "seed is 3, and has no settings of its own"),
+        ("learning.episodes", "many", "invalid type: string \"many\", expected u64"),
+        ("learning.fit.rate", "-1", "fit.rate must be above 0, and is -1"),
+    ] {
+        let error = plain.with(key, value).unwrap_err().to_string();
+        assert!(error.contains(&format!("the setting {key}: ")) && error.contains(why), "{error}");
+    }
+}

@@ -1,7 +1,8 @@
 //! `report`: what several runs reached, with intervals over seeds.
 
 use super::playing::Playing;
-use super::train::environment;
+use super::starting::environment;
+use super::varying::short;
 use crate::failure::{Failure, unwritable};
 use crate::input::library::Making;
 use crate::output::check_place;
@@ -30,7 +31,8 @@ const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00
 /// Say what several runs reached, with 95 % intervals over seeds
 #[derive(Args)]
 #[command(
-    after_help = "Runs of one environment and one algorithm are seeds of one row. Each run's policy, that of its last checkpoint, plays the same \
+    after_help = "Runs of one environment, one algorithm and the same settings are seeds of one row, which names the settings that others do not \
+share; numbers of iterations may differ. Each run's policy, that of its last checkpoint, plays the same \
 episodes by its mean action; so do zero and random actions, which are the floor. The row has the interquartile mean over its seeds, and its \
 interval by a stratified bootstrap (Agarwal et al., 2021); three seeds are few, and one says nothing of others.
 
@@ -68,16 +70,28 @@ struct Seed {
     success: f64,
 }
 
-/// Runs of one environment and one algorithm.
+/// Runs that differ in nothing but their seeds.
 struct Group {
-    id: String,
-    algorithm: &'static str,
+    /// What they have in common.
+    common: Config,
+    /// Settings that other groups of the environment and the algorithm do not share.
+    own: BTreeMap<String, String>,
     seeds: Vec<Seed>,
     /// Success of zero and of random actions \[%\].
     floors: [f64; 2],
 }
 
 impl Group {
+    fn algorithm(&self) -> &'static str {
+        self.common.learning.algorithm.name()
+    }
+
+    /// What it is called.
+    fn name(&self) -> String {
+        let own = self.own.iter().map(|(key, value)| format!(" {}={value}", short(key)));
+        format!("{}{}", self.algorithm(), own.collect::<String>())
+    }
+
     fn scores(&self) -> Vec<f64> {
         self.seeds.iter().map(|seed| seed.success).collect()
     }
@@ -137,8 +151,8 @@ pub fn run(a: &Report) -> Result<(), Failure> {
             interquartile_mean(&group.scores()),
             group.seeds.len(),
             first(&group.learnt()),
-            group.id,
-            group.algorithm
+            group.common.id,
+            group.name()
         );
     }
     if groups.len() > 1 {
@@ -169,7 +183,7 @@ fn first(learnt: &[Option<f64>]) -> String {
 
 /// Reads the runs, and plays their policies and the floors.
 fn groups(a: &Report) -> Result<Vec<Group>, Failure> {
-    let mut groups: BTreeMap<(String, &'static str), Group> = BTreeMap::new();
+    let mut groups: Vec<Group> = Vec::new();
     let bar = if a.quiet || a.json { ProgressBar::hidden() } else { ProgressBar::new(0) };
     let style = ProgressStyle::with_template("{bar:30} {pos}/{len} episodes, {eta} left");
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
@@ -183,20 +197,29 @@ fn groups(a: &Report) -> Result<Vec<Group>, Failure> {
             let episodes = a.playing.play(&env, policy, &bar)?;
             Ok(evaluate(&episodes, env.success()).success_percentage)
         };
-        let (id, algorithm) = (config.id.clone(), config.learning.algorithm.name());
-        let group = match groups.entry((id.clone(), algorithm)) {
-            std::collections::btree_map::Entry::Occupied(group) => group.into_mut(),
-            std::collections::btree_map::Entry::Vacant(place) => {
-                bar.inc_length(2 * u64::from(a.playing.episodes));
-                let floors = [success(&Policy::Zero)?, success(&Policy::random(0))?];
-                place.insert(Group { id, algorithm, seeds: Vec::new(), floors })
+        // How long they were trained is no setting.
+        let common = Config { seed: 0, iterations: 0, keep_every: 0, ..config.clone() };
+        let place = match groups.iter().position(|group| group.common == common) {
+            Some(place) => place,
+            None => {
+                let floors = match groups.iter().find(|group| is_one_environment(&group.common, &common)) {
+                    Some(group) => group.floors,
+                    None => {
+                        bar.inc_length(2 * u64::from(a.playing.episodes));
+                        [success(&Policy::Zero)?, success(&Policy::random(0))?]
+                    }
+                };
+                groups.push(Group { common, own: BTreeMap::new(), seeds: Vec::new(), floors });
+                groups.len() - 1
             }
         };
-        if let Some(other) = group.seeds.iter().find(|seed| seed.config.seed == config.seed) {
+        let group = &mut groups[place];
+        if group.seeds.iter().any(|seed| seed.config.seed == config.seed) {
             let message = format!(
-                "{}: a run of {} by {algorithm} with seed {} is here already: leave one out",
+                "{}: a run of {} by {} with seed {} is here already: leave one out",
                 folder.display(),
-                other.config.id,
+                config.id,
+                group.algorithm(),
                 config.seed
             );
             return Err(Failure::usage(message));
@@ -204,15 +227,39 @@ fn groups(a: &Report) -> Result<Vec<Group>, Failure> {
         group.seeds.push(Seed { success: success(&policy)?, config, rows });
     }
     bar.finish_and_clear();
-    Ok(groups.into_values().collect())
+    find_own(&mut groups)?;
+    groups.sort_by(|a, b| (&a.common.id, a.name()).cmp(&(&b.common.id, b.name())));
+    Ok(groups)
+}
+
+/// Whether two configurations have the same environment.
+fn is_one_environment(a: &Config, b: &Config) -> bool {
+    (&a.id, &a.compat, &a.solver, &a.environment) == (&b.id, &b.compat, &b.solver, &b.environment)
+}
+
+/// Finds what settings groups do not share with others of their environment and algorithm.
+fn find_own(groups: &mut [Group]) -> Result<(), Failure> {
+    let kind = |group: &Group| (group.common.id.clone(), group.algorithm());
+    let all = groups
+        .iter()
+        .map(|group| Ok((kind(group), group.common.settings().map_err(Failure::usage)?)))
+        .collect::<Result<Vec<_>, Failure>>()?;
+    for (group, (kind, settings)) in groups.iter_mut().zip(&all) {
+        let others = || all.iter().filter(|(other, _)| other == kind);
+        let differs = |key: &str, value| others().any(|(_, other)| other.get(key) != Some(value));
+        let own = settings.iter().filter(|(key, value)| differs(key, value));
+        group.own = own.map(|(key, value)| (key.clone(), value.clone())).collect();
+    }
+    Ok(())
 }
 
 fn as_json(a: &Report, groups: &[Group], (mean, interval): (f64, Option<[f64; 2]>)) -> serde_json::Value {
     let rows = groups.iter().map(|group| {
         let [steps, hours] = group.cost();
         json!({
-            "id": group.id,
-            "algorithm": group.algorithm,
+            "id": group.common.id,
+            "algorithm": group.algorithm(),
+            "settings": group.own,
             "seeds": group.seeds.iter().map(|seed| seed.config.seed).collect::<Vec<_>>(),
             "success_percentages": group.scores(),
             "interquartile_mean": interquartile_mean(&group.scores()),
@@ -252,8 +299,8 @@ fn page(groups: &[Group]) -> String {
             text,
             "<tr><td>{}</td><td>{}</td><td>{mean:.1}</td><td>{interval}</td><td>{}</td><td>{steps}</td>\
              <td>{:.1}</td><td>{:.1}</td></tr>",
-            group.id,
-            group.algorithm,
+            group.common.id,
+            escaped(&group.name()),
             group.seeds.len(),
             group.floors[0],
             group.floors[1]
@@ -267,7 +314,7 @@ fn page(groups: &[Group]) -> String {
         );
         let mut curves = Vec::new();
         for (group, colour) in groups.iter().zip(COLOURS.iter().cycle()) {
-            let _ = write!(text, "<span style=\"color:{colour}\">&#9644; {}</span> ", group.algorithm);
+            let _ = write!(text, "<span style=\"color:{colour}\">&#9644; {}</span> ", escaped(&group.name()));
             curves.extend(group.seeds.iter().map(|seed| {
                 Curve {
                     colour,
@@ -284,9 +331,14 @@ fn page(groups: &[Group]) -> String {
     text + "</body></html>\n"
 }
 
+/// Text whose marks are no HTML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
 /// The groups of each environment.
 fn by_environment(groups: &[Group]) -> BTreeMap<&str, Vec<&Group>> {
     let mut found: BTreeMap<&str, Vec<&Group>> = BTreeMap::new();
-    groups.iter().for_each(|group| found.entry(&group.id).or_default().push(group));
+    groups.iter().for_each(|group| found.entry(&group.common.id).or_default().push(group));
     found
 }

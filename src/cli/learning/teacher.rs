@@ -1,6 +1,6 @@
 //! Who shows a training how its task is done.
 
-use super::train::failure;
+use super::starting::failure;
 use crate::failure::Failure;
 use crate::input::actor::{fault, teacher};
 use agents::learn::{Demonstrations, Lessons};
@@ -16,14 +16,14 @@ const DEFAULT: Lessons = Lessons { episodes: 50, noise: 0.05 };
 #[derive(Args)]
 pub struct TeacherArguments {
     /// Who shows how it is done, for bc, dagger and dapg: a controller's name, or the file of a policy
-    #[arg(long, value_name = "NAME|FILE", conflicts_with = "resume")]
+    #[arg(long, value_name = "NAME|FILE")]
     teacher: Option<String>,
     /// Episodes in which the teacher succeeds [default: 50, or what CONFIG says]
-    #[arg(long, value_name = "N", conflicts_with = "resume", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     demonstrations: Option<u64>,
     /// Deviation of what is added to the teacher's actions when they are taken, so that it shows how to get back on its way
     /// [default: 0.05, or what CONFIG says]
-    #[arg(long, value_name = "X", conflicts_with = "resume")]
+    #[arg(long, value_name = "X")]
     demonstration_noise: Option<f64>,
 }
 
@@ -50,24 +50,29 @@ impl TeacherArguments {
     }
 }
 
+/// Who teaches a configuration; nobody where nothing is learnt from demonstrations.
+///
+/// # Errors
+/// There is no teacher where one is needed, or one where none is.
+pub fn teaching(config: &Config) -> Result<Option<&Teaching>, Failure> {
+    match (&config.teacher, config.learning.algorithm.needs_demonstrations()) {
+        (None, false) => Ok(None),
+        (None, true) => {
+            Err(Failure::usage("bc, dagger and dapg learn from a teacher: add --teacher NAME|FILE"))
+        }
+        (Some(_), false) => Err(Failure::usage(
+            "only bc, dagger and dapg learn from a teacher: add --algo bc, dagger or dapg",
+        )),
+        (Some(teaching), true) => Ok(Some(teaching)),
+    }
+}
+
 /// The demonstrations of a configuration, played now; none where nothing is learnt from them.
 ///
 /// # Errors
-/// There is no teacher where one is needed, or one where none is; it fails.
+/// [`teaching`] refuses; the teacher fails.
 pub fn teach(config: &Config, env: &Env, quiet: bool) -> Result<Option<Demonstrations>, Failure> {
-    let needed = config.learning.algorithm.needs_demonstrations();
-    let Teaching { by, lessons } = match (&config.teacher, needed) {
-        (None, false) => return Ok(None),
-        (None, true) => {
-            return Err(Failure::usage("bc, dagger and dapg learn from a teacher: add --teacher NAME|FILE"));
-        }
-        (Some(_), false) => {
-            return Err(Failure::usage(
-                "only bc, dagger and dapg learn from a teacher: add --algo bc, dagger or dapg",
-            ));
-        }
-        (Some(teaching), true) => teaching,
-    };
+    let Some(Teaching { by, lessons }) = teaching(config)? else { return Ok(None) };
     let mut env = env.fork().map_err(Failure::new)?;
     let mut teacher = teacher(by, &env)?;
     let style = ProgressStyle::with_template("{bar:30} {pos}/{len} demonstrations, {eta} left");

@@ -1,22 +1,14 @@
 //! `train`: learn a policy, in a folder from which it can be resumed.
 
-use super::teacher::{TeacherArguments, correct, teach};
+use super::starting::{Starting, begin, environment, failure, resume};
 use crate::failure::Failure;
-use crate::input::library::Making;
-use crate::input::solver::SolverArgument;
 use crate::interrupt::Interrupt;
 use crate::terminal::{note, show};
-use agents::PolicyError;
-use agents::learn::Settings;
-use agents::run::{Config, Row, Run};
-use clap::{Args, ValueEnum, ValueHint};
-use env::{Compat, Env};
+use agents::run::{Row, Run};
+use clap::{Args, ValueHint};
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-
-/// Environments that each thread steps side by side: networks are faster on several rows.
-const SIDE_BY_SIDE: usize = 16;
 
 /// Learn a policy from episodes of an environment
 #[derive(Args)]
@@ -48,31 +40,27 @@ Examples:
 )]
 pub struct Train {
     /// Id of the environment, or the run.toml of a run to make again
-    #[arg(value_name = "ID|CONFIG", required_unless_present = "resume", conflicts_with = "resume")]
+    #[arg(value_name = "ID|CONFIG", required_unless_present = "resume")]
     what: Option<String>,
-    /// How environments are made
+    /// What is trained, and how
     #[command(flatten)]
-    making: Making,
-    /// How it is learnt [default: npg, or what CONFIG says]
-    #[arg(long, value_name = "NAME", conflicts_with = "resume")]
-    algo: Option<AlgorithmName>,
-    /// Who shows how it is done
-    #[command(flatten)]
-    teacher: TeacherArguments,
+    starting: Starting,
     /// Seed of the run [default: 1, or what CONFIG says]
-    #[arg(long, value_name = "SEED", conflicts_with = "resume")]
+    #[arg(long, value_name = "SEED")]
     seed: Option<u64>,
     /// Iterations in all [default: 100, or what the run says]
     #[arg(long, value_name = "N")]
     iterations: Option<u64>,
-    /// Iterations from one checkpoint to the next [default: 10, or what CONFIG says]
-    #[arg(long, value_name = "N", conflicts_with = "resume", value_parser = clap::value_parser!(u64).range(1..))]
-    keep_every: Option<u64>,
     /// Folder of the run, new or empty [default: ID with the seed]
-    #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath, conflicts_with = "resume")]
+    #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
     out: Option<PathBuf>,
     /// Resume the run in this folder
-    #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
+    #[arg(
+        long,
+        value_name = "FOLDER",
+        value_hint = ValueHint::DirPath,
+        conflicts_with_all = ["what", "algo", "teacher", "demonstrations", "demonstration_noise", "seed", "keep_every", "out"]
+    )]
     resume: Option<PathBuf>,
     /// Threads; 0 for as many as there are cores. They make no difference to what is learnt
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -80,23 +68,6 @@ pub struct Train {
     /// Show no progress
     #[arg(long, short)]
     quiet: bool,
-}
-
-/// Algorithms by name.
-#[derive(Clone, Copy, ValueEnum)]
-pub enum AlgorithmName {
-    /// The natural policy gradient
-    Npg,
-    /// Proximal policy optimisation
-    Ppo,
-    /// Soft actor-critic: learns again and again from all it remembers, where steps are slow
-    Sac,
-    /// Behaviour cloning: only from demonstrations
-    Bc,
-    /// Behaviour cloning of a teacher who corrects the policy's own episodes (dataset aggregation)
-    Dagger,
-    /// The natural policy gradient with demonstrations
-    Dapg,
 }
 
 /// Runs the command.
@@ -129,107 +100,24 @@ pub fn run(a: &Train) -> Result<(), Failure> {
 /// The run to make or to resume, and its folder.
 fn open(a: &Train) -> Result<(PathBuf, Run), Failure> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let sizes = [SIDE_BY_SIDE, if a.threads == 0 { cores } else { a.threads }];
+    let threads = if a.threads == 0 { cores } else { a.threads };
     if let Some(folder) = &a.resume {
         let config = Run::config_of(folder).map_err(failure)?;
-        let mut run = Run::resume(folder, &make(a, &config)?, sizes).map_err(failure)?;
-        correct(&mut run)?;
+        a.starting.check(&config)?;
+        let env = environment(a.starting.making.clone(), &config)?;
+        let run = resume(folder, &env, threads)?;
         return Ok((folder.clone(), run));
     }
-    let config = config(a)?;
-    let name = format!("{}-seed{}", config.id.replace('/', "-"), config.seed);
-    let folder = a.out.clone().unwrap_or_else(|| name.into());
-    let env = make(a, &config)?;
-    // Demonstrations come first: a teacher that fails leaves no folder.
-    let demonstrations = teach(&config, &env, a.quiet)?;
-    let mut run = Run::create(&folder, config, &env, sizes).map_err(failure)?;
-    if let Some(demonstrations) = demonstrations {
-        run.teach(demonstrations).map_err(failure)?;
-        correct(&mut run)?;
-    }
-    Ok((folder, run))
-}
-
-/// What is to be trained, and how.
-fn config(a: &Train) -> Result<Config, Failure> {
     let what = a.what.as_deref().ok_or_else(|| Failure::usage("ID or CONFIG is needed"))?;
-    let mut config = if what.ends_with(".toml") {
-        Config::read(Path::new(what)).map_err(failure)?
-    } else {
-        Config {
-            id: what.into(),
-            seed: 1,
-            iterations: 100,
-            keep_every: 10,
-            compat: Some(a.making.compat.to_string()),
-            solver: Some(a.making.solver.name()),
-            environment: a.making.changes()?,
-            teacher: None,
-            learning: Settings::npg(),
-        }
-    };
-    match a.algo {
-        None => {}
-        Some(AlgorithmName::Npg) => config.learning = Settings::npg(),
-        Some(AlgorithmName::Ppo) => config.learning = Settings::ppo(),
-        Some(AlgorithmName::Bc) => config.learning = Settings::cloning(),
-        Some(AlgorithmName::Dagger) => config.learning = Settings::dagger(),
-        Some(AlgorithmName::Sac) => config.learning = Settings::sac(),
-        Some(AlgorithmName::Dapg) => config.learning = Settings::dapg(),
-    }
-    config.teacher = a.teacher.given(config.teacher)?;
+    let mut config = a.starting.config(what)?;
     config.seed = a.seed.unwrap_or(config.seed);
     config.iterations = a.iterations.unwrap_or(config.iterations);
-    config.keep_every = a.keep_every.unwrap_or(config.keep_every);
-    Ok(config)
-}
-
-/// The environment of a configuration, which says how it is made; what is given beside it must be the same.
-fn make(a: &Train, config: &Config) -> Result<Env, Failure> {
-    let making = made(a.making.clone(), config)?;
-    let (given, none) = (making.changes()?, env::Arguments::default());
-    for (option, differs) in [
-        ("--set", given != none && given != config.environment),
-        ("--compat", ![Compat::Fixed, making.compat].contains(&a.making.compat)),
-        ("--solver", !a.making.solver.is_own() && making.solver.is_own()),
-    ] {
-        if differs {
-            let message =
-                format!("{option} belongs to a run from its beginning: change it in a copy of run.toml");
-            return Err(Failure::usage(message));
-        }
-    }
-    environment(making, config)
-}
-
-/// How a configuration says that its environment is made.
-fn made(mut making: Making, config: &Config) -> Result<Making, Failure> {
-    if let Some(compat) = &config.compat {
-        making.compat = compat.parse().map_err(Failure::usage)?;
-    }
-    if let Some(solver) = &config.solver {
-        making.solver = SolverArgument::named(solver)?;
-    }
-    Ok(making)
-}
-
-/// The environment of a configuration.
-///
-/// # Errors
-/// There is none of its id, or it cannot be made.
-pub fn environment(making: Making, config: &Config) -> Result<Env, Failure> {
-    let making = made(making, config)?;
-    let library = making.assets()?;
-    let options = making.options()?.with_changes(config.environment.clone());
-    Env::make(&config.id, &library, &options).map_err(Failure::usage)
-}
-
-/// What was wrong: with what was given, or with what happened.
-pub fn failure(error: PolicyError) -> Failure {
-    match error {
-        PolicyError::Env(_) | PolicyError::Reward { .. } => Failure::new(error),
-        error => Failure::usage(error),
-    }
+    a.starting.check(&config)?;
+    let name = format!("{}-seed{}", config.id.replace('/', "-"), config.seed);
+    let folder = a.out.clone().unwrap_or_else(|| name.into());
+    let env = environment(a.starting.making.clone(), &config)?;
+    let run = begin(&folder, config, &env, threads, a.quiet)?;
+    Ok((folder, run))
 }
 
 fn progress(run: &Run) -> ProgressBar {
