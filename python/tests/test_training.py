@@ -50,7 +50,7 @@ def test_a_policy_of_a_run_acts(tmp_path):
 
 
 def test_what_is_wrong_is_refused(tmp_path):
-    with pytest.raises(ValueError, match="algorithm is one of npg, .*, not 'ddpg'"):
+    with pytest.raises(ValueError, match="algorithm is one of npg, .*, not \"ddpg\""):
         training.settings("ddpg")
     assert tuple(name for name in training.ALGORITHMS if training.settings(name)) == training.ALGORITHMS
     for settings, message in [
