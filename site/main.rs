@@ -149,7 +149,9 @@ fn generated(request: &Request, contents: &Contents) -> Result<Generated, String
     let mut types: Vec<PathBuf> = written.map(|name| root.join("web/page").join(name)).collect();
     types.extend(package.iter().map(|package| package.join("engine.d.ts")));
     add("javascript", reference::javascript(&types)?);
-    for part in ["environments", "control", "policy", "training", "pettingzoo", "collect", "data", "ray", "mujoco"] {
+    for part in
+        ["environments", "control", "policy", "training", "pettingzoo", "collect", "data", "ray", "mujoco"]
+    {
         let script = root.join("site/reference/python.py");
         let text = python
             .as_ref()

@@ -3,6 +3,7 @@
 use super::actor::Actor;
 use super::batch::Batch;
 use super::rollout::Episode;
+use super::teacher::Teacher;
 use crate::archive::{self, Archive, Entry, Numbers};
 use crate::error::PolicyError;
 use env::episode::Summary;
@@ -18,21 +19,6 @@ const RESET: u64 = 0;
 const NOISE: u64 = 1;
 /// Episodes that a teacher may play for each that succeeds.
 const ATTEMPTS: u64 = 10;
-
-/// Who shows how a task is done. A teacher may see all of an environment.
-pub trait Teacher {
-    /// Prepares for an episode, which has been reset with a seed.
-    ///
-    /// # Errors
-    /// The teacher is none for this environment.
-    fn begin(&mut self, env: &Env, seed: u64) -> Result<(), PolicyError>;
-
-    /// Chooses an action for the present state.
-    ///
-    /// # Errors
-    /// The teacher is none for this environment, or does not know what to do.
-    fn act(&mut self, env: &Env, action: &mut [f64]) -> Result<(), PolicyError>;
-}
 
 /// Which demonstrations are asked for.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]

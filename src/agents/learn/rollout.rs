@@ -5,7 +5,7 @@
 //! a thread steps side by side make a difference.
 
 use super::actor::{Actor, Head};
-use super::demonstrations::Teacher;
+use super::teacher::Teacher;
 use crate::error::PolicyError;
 use crate::nets::Tape;
 use env::episode::Summary;

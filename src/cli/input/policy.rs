@@ -1,7 +1,7 @@
 //! Policies by their names on the command line.
 
 use crate::failure::Failure;
-use agents::Policy;
+use agents::{Policy, PolicyError};
 
 /// The name of the policy that is shipped for an id.
 pub const BEST: &str = "best";
@@ -29,4 +29,12 @@ pub fn policy(name: &str, id: Option<&str>) -> Result<Policy, Failure> {
 /// The policy that is shipped for an id.
 pub fn shipped(id: &str) -> Result<Option<Policy>, Failure> {
     Policy::shipped(id).map_err(Failure::new)
+}
+
+/// What was wrong: with what was given, or with what happened.
+pub fn failure(error: PolicyError) -> Failure {
+    match error {
+        PolicyError::Env(_) | PolicyError::Reward { .. } => Failure::new(error),
+        error => Failure::usage(error),
+    }
 }

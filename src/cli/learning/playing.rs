@@ -1,8 +1,9 @@
 //! Episodes that say how good a policy is: the same ones for every policy.
 
 use crate::failure::Failure;
+use crate::input::policy::failure;
+use agents::Policy;
 use agents::statistics::wilson;
-use agents::{Policy, PolicyError};
 use clap::Args;
 use env::Env;
 use env::episode::Summary;
@@ -40,7 +41,7 @@ impl Playing {
                     return Ok(played);
                 }
                 let seed = self.seed.wrapping_add(u64::from(index));
-                played.push((index, policy.play(&mut env, seed).map_err(failed)?));
+                played.push((index, policy.play(&mut env, seed).map_err(failure)?));
                 bar.inc(1);
             }
         };
@@ -52,14 +53,6 @@ impl Playing {
         let mut episodes = parts.into_iter().collect::<Result<Vec<_>, _>>()?.concat();
         episodes.sort_unstable_by_key(|(index, _)| *index);
         Ok(episodes.into_iter().map(|(_, summary)| summary).collect())
-    }
-}
-
-/// A policy for another environment is a wrong argument.
-fn failed(error: PolicyError) -> Failure {
-    match error {
-        PolicyError::Env(_) => Failure::new(error),
-        error => Failure::usage(error),
     }
 }
 

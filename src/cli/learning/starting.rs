@@ -3,8 +3,8 @@
 use super::teacher::{TeacherArguments, correct, teach};
 use crate::failure::Failure;
 use crate::input::library::Making;
+use crate::input::policy::failure;
 use crate::input::solver::SolverArgument;
-use agents::PolicyError;
 use agents::learn::Settings;
 use agents::run::{Config, Run};
 use clap::{Args, ValueEnum};
@@ -150,12 +150,4 @@ pub fn resume(folder: &Path, env: &Env, threads: usize) -> Result<Run, Failure> 
     let mut run = Run::resume(folder, env, [SIDE_BY_SIDE, threads]).map_err(failure)?;
     correct(&mut run)?;
     Ok(run)
-}
-
-/// What was wrong: with what was given, or with what happened.
-pub fn failure(error: PolicyError) -> Failure {
-    match error {
-        PolicyError::Env(_) | PolicyError::Reward { .. } => Failure::new(error),
-        error => Failure::usage(error),
-    }
 }

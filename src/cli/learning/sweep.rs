@@ -1,11 +1,12 @@
 //! `sweep`: runs over settings and seeds, several at a time.
 
 use super::comparing::{Compared, show_compared};
-use super::starting::{Starting, begin, environment, failure, resume};
+use super::starting::{Starting, begin, environment, resume};
 use super::teacher::teaching;
 use super::varying::{Combination, Seeds, Variation, combinations, folder};
 use crate::failure::Failure;
 use crate::input::actor::teacher;
+use crate::input::policy::failure;
 use crate::interrupt::Interrupt;
 use agents::run::{Config, Run};
 use clap::{Args, ValueHint};

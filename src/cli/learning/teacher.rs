@@ -1,8 +1,8 @@
 //! Who shows a training how its task is done.
 
-use super::starting::failure;
 use crate::failure::Failure;
 use crate::input::actor::{fault, teacher};
+use crate::input::policy::failure;
 use agents::learn::{Demonstrations, Lessons};
 use agents::run::{Config, Run, Teaching};
 use clap::Args;

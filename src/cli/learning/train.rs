@@ -1,7 +1,8 @@
 //! `train`: learn a policy, in a folder from which it can be resumed.
 
-use super::starting::{Starting, begin, environment, failure, resume};
+use super::starting::{Starting, begin, environment, resume};
 use crate::failure::Failure;
+use crate::input::policy::failure;
 use crate::interrupt::Interrupt;
 use crate::terminal::{note, show};
 use agents::run::{Row, Run};

@@ -1,7 +1,7 @@
 //! What varies between the runs of a sweep: settings and seeds, and the folders that they name.
 
-use super::starting::failure;
 use crate::failure::Failure;
+use crate::input::policy::failure;
 use agents::run::Config;
 use std::collections::BTreeSet;
 use std::str::FromStr;
