@@ -47,7 +47,8 @@ struct Example {
 /// The examples of a help text that run this command; what they pipe to others is left out.
 fn examples(help: &str) -> Vec<Example> {
     let (_, section) = help.split_once("\nExamples:\n").expect("a section of examples");
-    let section = section.replace("\\\n", " ");
+    // A line longer than the help is wide goes on at the same indentation, before an option.
+    let section = section.replace("\\\n", " ").replace("\n  --", " --");
     let lines = section.lines().filter_map(|line| line.strip_prefix("  robohive "));
     let example = |line: &str| {
         let end = ["   ", " | ", " > "].iter().filter_map(|mark| line.find(mark)).min();
