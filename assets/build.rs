@@ -11,12 +11,11 @@ fn main() -> io::Result<()> {
     let texts = files(&root, &["xml", "toml"])?.into_iter().filter(|(name, _)| name.contains('/'));
     let texts = texts.map(|(name, file)| format!("    ({name:?}, include_str!({file:?})),\n"));
     fs::write(out.join("texts.rs"), format!("&[\n{}]\n", texts.collect::<String>()))?;
-    let policies = files(&root.join("policies"), &["safetensors"])?.into_iter();
-    let policies = policies.map(|(name, file)| {
-        let id = name.trim_end_matches(".safetensors");
-        format!("    ({id:?}, include_bytes!({file:?})),\n")
-    });
-    fs::write(out.join("policies.rs"), format!("&[\n{}]\n", policies.collect::<String>()))
+    let policies = files(&root.join("policies"), &["safetensors"])?;
+    let ids = policies.iter().map(|(name, _)| format!("    {:?},\n", name.trim_end_matches(".safetensors")));
+    fs::write(out.join("policy_ids.rs"), format!("&[\n{}]\n", ids.collect::<String>()))?;
+    let contents = policies.iter().map(|(_, file)| format!("    include_bytes!({file:?}),\n"));
+    fs::write(out.join("policies.rs"), format!("&[\n{}]\n", contents.collect::<String>()))
 }
 
 /// The files below a folder that have one of these extensions, by their paths there as models write them, sorted.

@@ -59,8 +59,10 @@ use workshop::Mesh;
 /// Every model and config by its path in this folder, as `build.rs` finds them, sorted. Models include others by relative paths.
 static TEXTS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/texts.rs"));
 
-/// Every trained policy by the id of its environment, as `build.rs` finds them in the folder `policies`, sorted.
-static POLICIES: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/policies.rs"));
+/// Ids of the environments of trained policies, as `build.rs` finds them in the folder `policies`, sorted; and the policies, apart, so that a
+/// program which only lists them does not hold them.
+static POLICY_IDS: &[&str] = include!(concat!(env!("OUT_DIR"), "/policy_ids.rs"));
+static POLICIES: &[&[u8]] = include!(concat!(env!("OUT_DIR"), "/policies.rs"));
 
 /// Every mesh, by the folder that it is in.
 static MESHES: &[(&str, &[Shape])] = &[
@@ -128,12 +130,12 @@ pub fn text(path: &str) -> Option<&'static str> {
 
 /// Ids of environments that a trained policy is shipped for, sorted.
 pub fn policies() -> impl Iterator<Item = &'static str> {
-    POLICIES.iter().map(|(id, _)| *id)
+    POLICY_IDS.iter().copied()
 }
 
 /// The trained policy for the environments of an id, a safetensors file; `None` where none is shipped.
 pub fn policy(id: &str) -> Option<&'static [u8]> {
-    POLICIES.binary_search_by_key(&id, |(own, _)| own).ok().map(|found| POLICIES[found].1)
+    POLICY_IDS.binary_search(&id).ok().map(|found| POLICIES[found])
 }
 
 /// The mesh that an OBJ file holds.

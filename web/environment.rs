@@ -20,7 +20,7 @@ pub struct Step {
 #[wasm_bindgen]
 impl Simulation {
     /// An environment on a model of our own, at the start of the episode of `seed`, acted in at random. With the bytes of a
-    /// policy made for RoboHive (a pickle, which is not executed) the policy acts.
+    /// policy, one that `robohive train` wrote or one made for RoboHive (a pickle, which is not executed), the policy acts.
     ///
     /// # Errors
     /// There is no environment of that id, or the policy is not one that is understood.

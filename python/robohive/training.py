@@ -18,7 +18,6 @@ one that was not.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterable, Iterator, Mapping
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
@@ -30,7 +29,7 @@ __all__ = ["ALGORITHMS", "Run", "complete", "configuration", "settings", "variat
 if TYPE_CHECKING:
     from robohive.envs import RoboHiveEnv
 
-ALGORITHMS = ("npg", "ppo", "sac", "bc", "dagger", "dapg")
+ALGORITHMS = tuple(_core.learning_algorithms())
 """Algorithms by name: natural policy gradient, proximal policy optimisation, soft actor-critic, behaviour cloning, dataset
 aggregation, and the natural policy gradient with demonstrations."""
 
@@ -106,7 +105,7 @@ def complete(config: Mapping[str, Any]) -> dict[str, Any]:
 def variations(
     id: str, *, seeds: Iterable[int], vary: Mapping[str, Iterable[Any]] | None = None, **options: Any
 ) -> dict[str, dict[str, Any]]:
-    """A configuration for every combination of seeds and settings, by a name for its folder.
+    """A configuration for every combination of seeds and settings, by the name that its folder has in `robohive sweep`.
 
     >>> list(variations("hive/FrankaReach-v0", seeds=[1, 2], vary={"learning.fit.rate": [1e-3, 3e-4]}))
     ['fit.rate=0.001-seed1', 'fit.rate=0.001-seed2', 'fit.rate=0.0003-seed1', 'fit.rate=0.0003-seed2']
@@ -118,17 +117,10 @@ def variations(
         options: Those of `configuration`.
 
     Raises:
-        ValueError: there is no such algorithm or setting.
+        ValueError: there is no such algorithm or setting, or there are more than 1000 runs.
     """
-    base, found = configuration(id, **options), {}
-    names, values = list(vary or {}), [list(each) for each in (vary or {}).values()]
-    for chosen, seed in itertools.product(itertools.product(*values), list(seeds)):
-        config, parts = {**base, "seed": seed}, []
-        for name, value in zip(names, chosen, strict=True):
-            config = _with(config, name, name.split("."), value)
-            parts.append(f"{name.removeprefix('learning.')}={value}".replace("/", "_"))
-        found["-".join([*parts, f"seed{seed}"])] = config
-    return found
+    values = {key: list(each) for key, each in (vary or {}).items()}
+    return _core.config_variations(configuration(id, **options), values, list(seeds))
 
 
 class Run:
@@ -239,15 +231,6 @@ def _environment(config: Mapping[str, Any]) -> RoboHiveEnv:
     """The environment of a configuration."""
     making = {key: config[key] for key in ("compat", "solver") if config.get(key) is not None}
     return make(config["id"], **making, **config.get("environment", {}))
-
-
-def _with(table: Mapping[str, Any], name: str, path: list[str], value: Any) -> dict[str, Any]:
-    """A table with another value at the end of a path."""
-    first, *rest = path
-    if not isinstance(table, Mapping) or first not in table:
-        there = ", ".join(table) if isinstance(table, Mapping) else "none"
-        raise ValueError(f"there is no setting {name!r}: of those beside {first!r} there are {there}")
-    return {**table, first: _with(table[first], name, rest, value) if rest else value}
 
 
 def _merged(base: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:

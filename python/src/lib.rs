@@ -34,7 +34,10 @@ mod _core {
     #[pymodule_export]
     use super::policy::{PyPolicy, policies};
     #[pymodule_export]
-    use super::training::{PyRun, complete_config, learning_settings, run_config, run_policy, run_rows};
+    use super::training::{
+        PyRun, complete_config, config_variations, learning_algorithms, learning_settings, run_config,
+        run_policy, run_rows,
+    };
     #[pymodule_export]
     use super::vector::PyVecEnv;
     #[pymodule_export]

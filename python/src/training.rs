@@ -5,18 +5,15 @@ use crate::policy::raised;
 use crate::settings::{python, table};
 use crate::turns::Turns;
 use agents::PolicyError;
-use agents::learn::{Algorithm, Demonstrations, Settings, Teacher};
-use agents::run::{COLUMNS, Config, Row, Run, Teaching};
-use control::Controller;
+use agents::learn::{Algorithm, Settings};
+use agents::run::{COLUMNS, Config, Row, Run};
+use agents::sweep::{Variation, combinations};
 use env::Env;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::Serialize;
-use std::path::{Path, PathBuf};
-
-/// Environments that each thread steps side by side.
-const SIDE_BY_SIDE: usize = 16;
+use std::path::PathBuf;
 
 /// A training in a folder.
 #[pyclass(frozen, name = "Run", module = "robohive._core")]
@@ -34,24 +31,14 @@ impl PyRun {
         threads: usize,
     ) -> PyResult<Self> {
         let config = configuration(config)?;
-        let begin = |env: &mut Env| {
-            let demonstrations = shown(&config, env)?;
-            let mut run = Run::create(&folder, config, env, [SIDE_BY_SIDE, cores(threads)])?;
-            demonstrations.map_or(Ok(()), |shown| run.teach(shown))?;
-            correct(&mut run)?;
-            Ok(run)
-        };
+        let begin = |env: &mut Env| Run::create(&folder, config, env, threads, |_| ());
         Self::of(py, env.detached(py, "create", begin)?)
     }
 
     /// Goes on with the run in a folder, on environments like `env`.
     #[staticmethod]
     fn resume(py: Python<'_>, env: &PyEnv, folder: PathBuf, threads: usize) -> PyResult<Self> {
-        let go_on = |env: &mut Env| {
-            let mut run = Run::resume(&folder, env, [SIDE_BY_SIDE, cores(threads)])?;
-            correct(&mut run)?;
-            Ok(run)
-        };
+        let go_on = |env: &mut Env| Run::resume(&folder, env, threads);
         Self::of(py, env.detached(py, "resume", go_on)?)
     }
 
@@ -88,11 +75,17 @@ impl PyRun {
     }
 }
 
+/// Names of the algorithms.
+#[pyfunction]
+pub fn learning_algorithms() -> [&'static str; Algorithm::NAMES.len()] {
+    Algorithm::NAMES.map(|(name, _)| name)
+}
+
 /// Settings to begin with, of an algorithm by name.
 #[pyfunction]
 pub fn learning_settings<'py>(py: Python<'py>, algorithm: &str) -> PyResult<Bound<'py, PyAny>> {
     let settings = Settings::named(algorithm).ok_or_else(|| {
-        let names = Algorithm::NAMES.join(", ");
+        let names = Algorithm::NAMES.map(|(name, _)| name).join(", ");
         PyValueError::new_err(format!("algorithm is one of {names}, not {algorithm:?}"))
     })?;
     as_python(py, &settings)
@@ -102,6 +95,34 @@ pub fn learning_settings<'py>(py: Python<'py>, algorithm: &str) -> PyResult<Boun
 #[pyfunction]
 pub fn complete_config<'py>(py: Python<'py>, config: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyAny>> {
     as_python(py, &configuration(config)?)
+}
+
+/// A configuration for each combination of values of settings and each seed, by the name of its folder.
+#[pyfunction]
+pub fn config_variations<'py>(
+    py: Python<'py>,
+    config: &Bound<'py, PyDict>,
+    vary: &Bound<'py, PyDict>,
+    seeds: Vec<u64>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let values = |(key, value): (String, toml::Value)| match value {
+        toml::Value::Array(values) => {
+            Ok(Variation { key, values: values.iter().map(ToString::to_string).collect() })
+        }
+        other => {
+            Err(PyValueError::new_err(format!("{key} varies over a list of values, and {other} is none")))
+        }
+    };
+    let variations = table(vary)?.into_iter().map(values).collect::<PyResult<Vec<_>>>()?;
+    let combinations = combinations(&configuration(config)?, &variations, seeds.len());
+    let found = PyDict::new(py);
+    for combination in combinations.map_err(|error| raised(py, &error))? {
+        for &seed in &seeds {
+            let config = Config { seed, ..combination.config.clone() };
+            found.set_item(combination.folder(seed), as_python(py, &config)?)?;
+        }
+    }
+    Ok(found)
 }
 
 /// The configuration of the run in a folder.
@@ -137,67 +158,4 @@ fn columns<'py>(py: Python<'py>, row: &Row) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     COLUMNS.iter().zip(row.0).try_for_each(|(name, number)| dict.set_item(name, number))?;
     Ok(dict)
-}
-
-fn cores(threads: usize) -> usize {
-    match threads {
-        0 => std::thread::available_parallelism().map_or(1, usize::from),
-        threads => threads,
-    }
-}
-
-/// What the teacher of a configuration shows; none where nothing is learnt from it.
-fn shown(config: &Config, env: &Env) -> Result<Option<Demonstrations>, PolicyError> {
-    let id = || env.spec().id.clone();
-    match (&config.teacher, config.learning.algorithm.needs_demonstrations()) {
-        (None, false) => Ok(None),
-        (Some(Teaching { by, lessons }), true) => {
-            let (mut env, mut teacher) = (env.fork()?, teacher(by, env)?);
-            Demonstrations::play(&mut env, &mut *teacher, *lessons, config.seed, |_| ()).map(Some)
-        }
-        (None, true) => {
-            let message = "this algorithm learns from a teacher: name one".into();
-            Err(PolicyError::Teacher { id: id(), message })
-        }
-        (Some(_), false) => {
-            let message = "this algorithm learns from no teacher: name none".into();
-            Err(PolicyError::Teacher { id: id(), message })
-        }
-    }
-}
-
-/// Lets the teacher of a run correct what its policy does, where that is learnt from.
-fn correct(run: &mut Run) -> Result<(), PolicyError> {
-    match run.config().teacher.clone() {
-        Some(Teaching { by, .. }) if run.config().learning.algorithm.needs_corrections() => {
-            run.correct(|env| teacher(&by, env))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// The teacher of a name: a controller, or the file of a policy.
-fn teacher(name: &str, env: &Env) -> Result<Box<dyn Teacher + Send>, PolicyError> {
-    if control::controllers().iter().any(|entry| entry.name == name) {
-        let made = control::make(name, env).map_err(|error| failed(env, error))?;
-        return Ok(Box::new(Solver(made)));
-    }
-    Ok(Box::new(agents::Policy::open(Path::new(name))?))
-}
-
-/// A controller as a teacher.
-struct Solver(Box<dyn Controller>);
-
-impl Teacher for Solver {
-    fn begin(&mut self, env: &Env, seed: u64) -> Result<(), PolicyError> {
-        self.0.reset(env, seed).map_err(|error| failed(env, error))
-    }
-
-    fn act(&mut self, env: &Env, action: &mut [f64]) -> Result<(), PolicyError> {
-        self.0.act(env, action).map_err(|error| failed(env, error))
-    }
-}
-
-fn failed(env: &Env, error: control::ControlError) -> PolicyError {
-    PolicyError::Teacher { id: env.spec().id.clone(), message: error.to_string() }
 }

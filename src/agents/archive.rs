@@ -4,6 +4,7 @@
 
 use crate::error::PolicyError;
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
+use serde::Deserialize;
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::{Read, Write};
@@ -12,6 +13,8 @@ use std::path::Path;
 /// Most bytes of a file: of policies and demonstrations, and of checkpoints with all the steps that are learnt from again.
 pub(crate) const MAX_BYTES: u64 = 64 << 20;
 pub(crate) const MAX_CHECKPOINT_BYTES: u64 = 4 << 30;
+/// Most bytes of a header, which names tensors and holds a card.
+const MAX_HEADER_BYTES: u64 = 1 << 20;
 /// The card's name in the metadata. One name alone, as metadata have no order and equal numbers are to make equal files.
 const CARD: &str = "robohive";
 
@@ -138,6 +141,38 @@ pub(crate) fn read(path: &Path, most: u64) -> Result<Vec<u8>, PolicyError> {
     Ok(bytes)
 }
 
+/// The card of a file, and how many bytes the file has: only its header is read.
+pub(crate) fn read_card(path: &Path) -> Result<(String, u64), PolicyError> {
+    let fail = |error| PolicyError::File { path: path.into(), error };
+    let wrong = |message: String| PolicyError::content(message).within(path);
+    let mut file = File::open(path).map_err(fail)?;
+    let (size, mut length) = (file.metadata().map_err(fail)?.len(), [0; 8]);
+    file.read_exact(&mut length).map_err(fail)?;
+    let length = u64::from_le_bytes(length);
+    if length > MAX_HEADER_BYTES.min(size) {
+        return Err(wrong("it is no safetensors file: its header is longer than any".into()));
+    }
+    let mut header = Vec::new();
+    file.take(length).read_to_end(&mut header).map_err(fail)?;
+    let header: Header = serde_json::from_slice(&header).map_err(|error| {
+        wrong(format!("it is no safetensors file: its header is not understood: {error}"))
+    })?;
+    let card = header.metadata.get(CARD).cloned();
+    card.map(|card| (card, size)).ok_or_else(|| wrong(no_card()))
+}
+
+/// Why a file of something else is refused.
+fn no_card() -> String {
+    format!("its metadata have no {CARD:?}: it was not written by `train`")
+}
+
+/// What a header says beside its tensors.
+#[derive(Deserialize)]
+struct Header {
+    #[serde(rename = "__metadata__", default)]
+    metadata: HashMap<String, String>,
+}
+
 /// Whether bytes are those of a safetensors file: the length of a header, and JSON.
 pub(crate) fn is_archive(bytes: &[u8]) -> bool {
     let length = bytes.first_chunk().map_or(u64::MAX, |word| u64::from_le_bytes(*word));
@@ -148,7 +183,7 @@ pub(crate) fn is_archive(bytes: &[u8]) -> bool {
 pub(crate) struct Archive<'a> {
     tensors: SafeTensors<'a>,
     card: String,
-    /// Bytes of all tensors.
+    /// Bytes of the file.
     pub size: usize,
 }
 
@@ -161,9 +196,7 @@ impl<'a> Archive<'a> {
         let (_, header) = SafeTensors::read_metadata(bytes).map_err(content)?;
         let tensors = SafeTensors::deserialize(bytes).map_err(content)?;
         let card = header.metadata().as_ref().and_then(|names| names.get(CARD)).cloned();
-        let card = card.ok_or_else(|| {
-            PolicyError::content(format!("its metadata have no {CARD:?}: it was not written by `train`"))
-        })?;
+        let card = card.ok_or_else(|| PolicyError::content(no_card()))?;
         Ok(Archive { tensors, card, size: bytes.len() })
     }
 

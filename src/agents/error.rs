@@ -37,6 +37,8 @@ pub enum PolicyError {
         /// What is wrong.
         message: String,
     },
+    /// Runs of a sweep are too many or too much alike.
+    Sweep(String),
     /// The policy is one for another environment.
     Foreign {
         /// The environment's id.
@@ -97,6 +99,7 @@ impl fmt::Display for PolicyError {
             PolicyError::Content { path: None, message } => write!(f, "the policy: {message}"),
             PolicyError::Run { path, message } => write!(f, "the run {}: {message}", path.display()),
             PolicyError::Setting { key, message } => write!(f, "the setting {key}: {message}"),
+            PolicyError::Sweep(message) => write!(f, "the sweep: {message}"),
             PolicyError::Foreign { id, message } => write!(f, "the policy is not one for {id}: {message}"),
             PolicyError::Unshipped { id } => {
                 let shipped = assets::policies().collect::<Vec<_>>().join(", ");

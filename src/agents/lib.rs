@@ -26,6 +26,7 @@ mod observation;
 mod policy;
 pub mod run;
 pub mod statistics;
+pub mod sweep;
 
 pub use error::PolicyError;
 pub use network::{Layer, Network};

@@ -1,6 +1,6 @@
 //! The policies that are shipped: what each solves in the environments that it was trained in, beside zero and random actions.
 
-use agents::learn::Settings;
+use agents::learn::{Card, Lessons, Settings, Teaching};
 use agents::statistics::wilson;
 use agents::{Policy, Trained};
 use env::episode::evaluate;
@@ -62,15 +62,18 @@ fn row(id: &str) -> Result<Row, String> {
 
 /// The command that trains a policy, whose settings are those to begin with.
 fn command(trained: &Trained) -> Result<String, String> {
-    let card = trained.card();
-    let known = [Settings::npg(), Settings::ppo(), Settings::sac()];
-    let settings = known.iter().find(|settings| **settings == card.settings);
-    let settings = settings.ok_or("its settings are none that `robohive train` has by itself")?;
+    let Card { id, iterations, seed, settings, teacher, .. } = trained.card();
     let algorithm = settings.algorithm.name();
-    Ok(format!(
-        "robohive train {} --algo {algorithm} --iterations {} --seed {}",
-        card.id, card.iterations, card.seed
-    ))
+    if Settings::named(algorithm).as_ref() != Some(settings) {
+        return Err("its settings are none that `robohive train` has by itself".into());
+    }
+    let mut command =
+        format!("robohive train {id} --algo {algorithm} --iterations {iterations} --seed {seed}");
+    if let Some(Teaching { by, lessons }) = teacher {
+        let Lessons { episodes, noise } = lessons;
+        let _ = write!(command, " --teacher {by} --demonstrations {episodes} --demonstration-noise {noise}");
+    }
+    Ok(command)
 }
 
 /// The table, and whether every policy solves its task and nothing less does as well.

@@ -107,8 +107,8 @@ impl Viewer {
         }
     }
 
-    /// Opens an environment, by its id in `ownEnvironments()`, at the start of the episode of `seed`. With the bytes of a policy
-    /// made for RoboHive (a pickle, which is not executed) the policy acts.
+    /// Opens an environment, by its id in `ownEnvironments()`, at the start of the episode of `seed`. With the bytes of a policy,
+    /// one that `robohive train` wrote or one made for RoboHive (a pickle, which is not executed), the policy acts.
     ///
     /// # Errors
     /// There is no environment of that id, or the policy is not one that is understood.

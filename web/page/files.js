@@ -8,7 +8,7 @@ export function isArchive(path, bytes) {
 /** What a file may hold, by its name: a model or an archive with one, recorded states, a policy. */
 export const isModel = (path) => /\.(xml|urdf|mjcf|rhm|zip|mjz)$/i.test(path);
 export const isTrajectory = (path) => /\.npz$/i.test(path);
-export const isPolicy = (path) => /\.(pickle|pkl)$/i.test(path);
+export const isPolicy = (path) => /\.(pickle|pkl|safetensors)$/i.test(path);
 
 /** Says that something is too large. */
 function refuse(name, bytes, most) {
@@ -44,6 +44,18 @@ export async function bytesOf(answer, name, most) {
 export async function bytesAt(address, most) {
   const bytes = await bytesOf(await fetch(address), address, most);
   if (!bytes) throw new Error(`${address}: there is no such file`);
+  return bytes;
+}
+
+/** Where this script lies: not in a call of `URL`, which bundlers would take for the address of a file. */
+const HERE = import.meta.url;
+
+/** The bytes of a policy by its address, or of the one that lies beside this page for an environment, `best`; nothing without an address. */
+export async function policyAt(address, id, most) {
+  if (address !== "best") return address ? bytesAt(address, most) : undefined;
+  const shipped = new URL(`policies/${id}.safetensors`, HERE).href;
+  const bytes = await bytesOf(await fetch(shipped), shipped, most);
+  if (!bytes) throw new Error(`no policy is shipped for ${id}: there is no ${shipped}`);
   return bytes;
 }
 

@@ -8,7 +8,7 @@
 // | `src` | address of a model or a zip archive, or `github:OWNER/NAME/BRANCH/PATH` |
 // | `path` | which model of the archive |
 // | `own` | name of a model of our own |
-// | `environment`, `seed`, `policy` | an id, the seed of its first episode, the address of a policy made for RoboHive |
+// | `environment`, `seed`, `policy` | an id, the seed of its first episode, the address of a policy, or `best` for the one that is shipped |
 // | `replay` | address of recorded states (`.npz`) that are shown instead of a simulation |
 // | `camera` | name of a camera |
 // | `running`, `paused` | whether time goes by: `paused` wins |
@@ -20,7 +20,7 @@
 // (`detail.body`), `record` (`detail.name`, `detail.bytes`; prevent the default to keep the file from being downloaded).
 
 import { instance, MissingFiles, openFiles, openUrl } from "./api.js";
-import { bytesAt, chosen, download, dropped, isModel, isPolicy, isTrajectory, readAll } from "./files.js";
+import { bytesAt, chosen, download, dropped, isModel, isPolicy, isTrajectory, policyAt, readAll } from "./files.js";
 import { Film } from "./film.js";
 import { listen } from "./gestures.js";
 import { build } from "./look.js";
@@ -236,9 +236,7 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
   }
 
   async #environment(engine, id) {
-    const address = this.getAttribute("policy");
-    const policy = address ? await bytesAt(address, engine.Files.mostBytes()) : undefined;
-    return this.#play(engine, id, policy);
+    return this.#play(engine, id, await policyAt(this.getAttribute("policy"), id, engine.Files.mostBytes()));
   }
 
   #play(engine, id, policy) {

@@ -2,7 +2,7 @@
 // neither. Links say what is open, as on the light page (page.js).
 
 import { MissingFiles, openFiles, openUrl } from "./api.js";
-import { bytesAt, chosen, download, dropped, isModel, isPolicy, isTrajectory, readAll } from "./files.js";
+import { bytesAt, chosen, download, dropped, isModel, isPolicy, isTrajectory, policyAt, readAll } from "./files.js";
 
 /** Milliseconds between looks at what the window says. */
 const LOOK = 500;
@@ -81,8 +81,7 @@ class Window {
     return this.#try(async () => {
       const [model, environment] = [names.get("model"), names.get("environment")];
       if (environment) {
-        const address = names.get("policy");
-        const policy = address ? await bytesAt(address, this.module.Files.mostBytes()) : undefined;
+        const policy = await policyAt(names.get("policy"), environment, this.module.Files.mostBytes());
         this.viewer.openEnvironment(environment, BigInt(names.get("seed") ?? 0), policy);
       } else if (this.module.ownModels().includes(model)) {
         this.viewer.openOwn(model);

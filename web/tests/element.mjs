@@ -48,6 +48,14 @@ const browser = await start();
   assert.match((await open("http://127.0.0.1:9/robot.xml")).message, /fetch/i);
   assert.match((await outcome((viewer) => viewer.setAttribute("environment", "hive/Nothing"))).message, /Nothing/);
   assert.match((await outcome((viewer) => { viewer.setAttribute("environment", "hive/ElbowPose-v0"); viewer.setAttribute("policy", "none.pickle"); })).message, /no such file/);
+  assert.match((await outcome((viewer) => viewer.setAttribute("policy", "best"))).message, /no policy is shipped for hive.ElbowPose-v0/);
+  assert.deepEqual(await outcome((viewer) => viewer.setAttribute("environment", "hive/FrankaReach-v0")), { name: "hive/FrankaReach-v0" });
+  const steps = await inside(({ simulation }) => {
+    let steps = 0;
+    while (!simulation.solved() && steps < 45) steps += simulation.step(1);
+    return steps;
+  });
+  assert.ok(steps > 5 && steps < 45, `the policy that is shipped reaches its target after ${steps} steps`);
   await page.evaluate(() => (document.querySelector("robohive-viewer").src = 1));
   await finish();
 }

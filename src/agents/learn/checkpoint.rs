@@ -4,6 +4,7 @@
 use super::actor::Actor;
 use super::learner::Learner;
 use super::settings::Settings;
+use super::teacher::Teaching;
 use crate::archive::{self, Archive};
 use crate::error::PolicyError;
 use env::{Env, Rng};
@@ -36,10 +37,13 @@ pub struct Card {
     pub engine: String,
     /// How it was trained.
     pub settings: Settings,
+    /// Who showed how its task is done, where it learnt from demonstrations.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub teacher: Option<Teaching>,
 }
 
 impl Learner {
-    fn card(&self, id: &str) -> Card {
+    fn card(&self, id: &str, teacher: Option<&Teaching>) -> Card {
         Card {
             format: FORMAT.into(),
             id: id.into(),
@@ -50,6 +54,7 @@ impl Learner {
             samples: self.samples,
             engine: env!("CARGO_PKG_VERSION").into(),
             settings: self.settings.clone(),
+            teacher: teacher.cloned(),
         }
     }
 
@@ -68,16 +73,21 @@ impl Learner {
     /// # Errors
     /// The file cannot be written.
     pub fn save(&mut self, id: &str, path: &Path) -> Result<(), PolicyError> {
-        let card = text(&self.card(id))?;
+        let card = text(&self.card(id, None))?;
         archive::write(path, card, &self.entries(), archive::MAX_CHECKPOINT_BYTES)
     }
 
-    /// Writes the policy alone, which [`Policy::open`](crate::Policy::open) reads.
+    /// Writes the policy alone, which [`Policy::open`](crate::Policy::open) reads, with who taught it.
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn save_policy(&mut self, id: &str, path: &Path) -> Result<(), PolicyError> {
-        let card = text(&self.card(id))?;
+    pub fn save_policy(
+        &mut self,
+        id: &str,
+        teacher: Option<&Teaching>,
+        path: &Path,
+    ) -> Result<(), PolicyError> {
+        let card = text(&self.card(id, teacher))?;
         archive::write(path, card, &self.actor.entries(), archive::MAX_BYTES)
     }
 
@@ -106,20 +116,25 @@ impl Learner {
 }
 
 impl Card {
-    /// What a checkpoint says of itself.
-    pub(crate) fn of_checkpoint(path: &Path) -> Result<Self, PolicyError> {
-        let bytes = archive::read(path, archive::MAX_CHECKPOINT_BYTES)?;
-        Archive::parse(&bytes).and_then(|archive| Card::of(&archive)).map_err(|error| error.within(path))
+    /// What a file says of itself, of which no more is read: a checkpoint can have gigabytes.
+    pub(crate) fn of_file(path: &Path) -> Result<Self, PolicyError> {
+        let (text, size) = archive::read_card(path)?;
+        Card::parse(&text, size).map_err(|error| error.within(path))
     }
 
     pub(crate) fn of(archive: &Archive<'_>) -> Result<Self, PolicyError> {
+        Card::parse(archive.card(), archive.size as u64)
+    }
+
+    /// The card of a file of this size.
+    fn parse(text: &str, size: u64) -> Result<Self, PolicyError> {
         let wrong = |error| PolicyError::content(format!("its card is not understood: {error}"));
-        let card: Card = serde_json::from_str(archive.card()).map_err(wrong)?;
+        let card: Card = serde_json::from_str(text).map_err(wrong)?;
         if card.format != FORMAT {
             let message = format!("its format is {:?}, and {FORMAT:?} is understood", card.format);
             return Err(PolicyError::content(message));
         }
-        if card.parameters().is_none_or(|count| count > archive.size / 4) {
+        if card.parameters().is_none_or(|count| count as u64 > size / 4) {
             let message =
                 "its card says of a larger network than the file holds, or of a layer without width";
             return Err(PolicyError::content(message));

@@ -3,7 +3,7 @@
 use super::actor::Actor;
 use super::batch::Batch;
 use super::rollout::Episode;
-use super::teacher::Teacher;
+use super::teacher::{Lessons, Teacher};
 use crate::archive::{self, Archive, Entry, Numbers};
 use crate::error::PolicyError;
 use env::episode::Summary;
@@ -19,17 +19,6 @@ const RESET: u64 = 0;
 const NOISE: u64 = 1;
 /// Episodes that a teacher may play for each that succeeds.
 const ATTEMPTS: u64 = 10;
-
-/// Which demonstrations are asked for.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Lessons {
-    /// Episodes that succeed.
-    pub episodes: u64,
-    /// Deviation of what is added to the actions that are taken, not to those that are remembered: the teacher shows how it gets back on
-    /// its way (Laskey et al., 2017).
-    pub noise: f64,
-}
 
 /// Steps of episodes in which a teacher succeeded, and then of a policy's own that it corrected.
 #[derive(Clone, Debug, PartialEq)]
@@ -144,7 +133,7 @@ impl Demonstrations {
     /// Leaves out all corrected episodes but the first ones.
     ///
     /// # Errors
-    /// There are not so many.
+    /// Fewer episodes are corrected than are asked for.
     pub(crate) fn keep_corrected(&mut self, count: u64) -> Result<(), PolicyError> {
         if self.corrected < count {
             let message =

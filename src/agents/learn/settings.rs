@@ -30,8 +30,18 @@ pub enum Algorithm {
 }
 
 impl Algorithm {
-    /// All names.
-    pub const NAMES: [&str; 6] = ["npg", "ppo", "sac", "bc", "dagger", "dapg"];
+    /// All names, with what they stand for.
+    pub const NAMES: [(&str, &str); 6] = [
+        ("npg", "The natural policy gradient"),
+        ("ppo", "Proximal policy optimisation"),
+        ("sac", "Soft actor-critic: learns again and again from all it remembers, where steps are slow"),
+        ("bc", "Behaviour cloning: only from demonstrations"),
+        (
+            "dagger",
+            "Behaviour cloning of a teacher who corrects the policy's own episodes (dataset aggregation)",
+        ),
+        ("dapg", "The natural policy gradient with demonstrations"),
+    ];
 
     /// Its name in short.
     pub fn name(&self) -> &'static str {

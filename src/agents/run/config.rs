@@ -1,7 +1,7 @@
 //! What is trained, and how: a TOML file.
 
 use crate::error::PolicyError;
-use crate::learn::{Lessons, Settings};
+use crate::learn::{Settings, Teaching};
 use env::Arguments;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -36,17 +36,22 @@ pub struct Config {
     pub learning: Settings,
 }
 
-/// Who shows how it is done, and how often.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Teaching {
-    /// A controller's name, or the file of a policy.
-    pub by: String,
-    /// Which demonstrations are asked for.
-    pub lessons: Lessons,
-}
-
 impl Config {
+    /// A training in the environments of an id as they are, of 100 iterations.
+    pub fn new(id: impl Into<String>, learning: Settings) -> Self {
+        Config {
+            id: id.into(),
+            seed: 1,
+            iterations: 100,
+            keep_every: 10,
+            compat: None,
+            solver: None,
+            environment: Arguments::default(),
+            teacher: None,
+            learning,
+        }
+    }
+
     /// Reads a file.
     ///
     /// # Errors
@@ -56,6 +61,23 @@ impl Config {
         let config: Config = toml::from_str(&text).map_err(|error| PolicyError::run(path, error))?;
         config.learning.check().map_err(|message| PolicyError::run(path, message))?;
         Ok(config)
+    }
+
+    /// Who teaches; nobody where nothing is learnt from demonstrations.
+    ///
+    /// # Errors
+    /// There is no teacher where one is needed, or one where none is.
+    pub fn teaching(&self) -> Result<Option<&Teaching>, PolicyError> {
+        let refuse = |message: &str| PolicyError::Setting { key: "teacher".into(), message: message.into() };
+        match (&self.teacher, self.learning.algorithm.needs_demonstrations()) {
+            (None, true) => Err(refuse(
+                "bc, dagger and dapg learn from a teacher: name a controller or the file of a policy (--teacher)",
+            )),
+            (Some(_), false) => Err(refuse(
+                "only bc, dagger and dapg learn from a teacher: name none, or one of them (--algo)",
+            )),
+            (teacher, _) => Ok(teacher.as_ref()),
+        }
     }
 
     /// The same with one setting changed: `key` is its path in the file, such as `learning.fit.rate`; `value` is TOML, or else text.

@@ -1,7 +1,8 @@
 //! Trainings in folders, which can be interrupted and resumed.
 //!
 //! A run is a folder: `run.toml` says what is trained and how, `log.csv` and `log.jsonl` have a row for each iteration, `checkpoint.safetensors` is
-//! where it goes on, `demonstrations.safetensors` is what it learns from besides, and `policy.safetensors` is what acts. Rows after the last checkpoint are made again when it goes on: with the same numbers.
+//! where it goes on, `demonstrations.safetensors` is what it learns from besides, and `policy.safetensors` is what acts. Rows after the last checkpoint
+//! are made again when it goes on: with the same numbers.
 //!
 //! `events.out.tfevents.robohive` has the same rows for TensorBoard: an event for each iteration, with a scalar for each column, in single
 //! precision. Its step is `num_samples`, the environment's steps so far; its wall time is the sum of `time` so far \[s\], which differs from
@@ -23,20 +24,11 @@
 //! use robohive_env::{Env, Options, OwnModels};
 //!
 //! let env = Env::make("hive/myoElbowPose1D6MRandom-v0", &OwnModels, &Options::default())?;
-//! let config = Config {
-//!     id: env.spec().id.clone(),
-//!     seed: 1,
-//!     iterations: 1,
-//!     keep_every: 1,
-//!     compat: None,
-//!     solver: None,
-//!     environment: Default::default(),
-//!     teacher: None,
-//!     learning: Settings { episodes: 2, ..Settings::npg() },
-//! };
+//! let learning = Settings { episodes: 2, ..Settings::npg() };
+//! let config = Config { iterations: 1, ..Config::new(&env.spec().id, learning) };
 //! let folder = std::env::temp_dir().join(format!("robohive-run-{}", std::process::id()));
-//! // Two environments side by side, on one thread.
-//! let mut run = Run::create(&folder, config, &env, [2, 1])?;
+//! // On one thread; nobody demonstrates anything here.
+//! let mut run = Run::create(&folder, config, &env, 1, |_| ())?;
 //! while !run.is_finished() {
 //!     let row = run.iterate()?;
 //!     assert!(row.get("num_samples") == 400.0 && row.get("kl_dist") > 0.0);
@@ -49,12 +41,14 @@
 mod config;
 mod events;
 mod log;
+mod teacher;
 
-pub use config::{Config, Teaching};
+pub use config::Config;
 pub use log::{COLUMNS, Row};
+pub use teacher::teacher;
 
 use crate::error::PolicyError;
-use crate::learn::{Card, Collector, Demonstrations, Learner, Teacher};
+use crate::learn::{Card, Collector, Demonstrations, Learner};
 use env::Env;
 use log::Log;
 use std::path::{Path, PathBuf};
@@ -65,6 +59,9 @@ const CONFIG: &str = "run.toml";
 const CHECKPOINT: &str = "checkpoint.safetensors";
 const POLICY: &str = "policy.safetensors";
 const DEMONSTRATIONS: &str = "demonstrations.safetensors";
+
+/// Environments that each thread steps side by side: networks are faster on several rows.
+const SIDE_BY_SIDE: usize = 16;
 
 /// A training in a folder.
 pub struct Run {
@@ -78,51 +75,34 @@ pub struct Run {
 }
 
 impl Run {
-    /// Begins a run in a new or empty folder, on environments like `env`: `count` for each of `threads` threads.
+    /// Begins a run in a new or empty folder, on environments like `env` and so many threads, 0 for as many as there are processors, which make
+    /// no difference to what is learnt. Where it is learnt from demonstrations, the teacher plays now, and each of its episodes is told of.
     ///
     /// # Errors
-    /// The folder holds something or cannot be written; settings make no sense; the environment is hardware.
-    pub fn create(folder: &Path, config: Config, env: &Env, sizes: [usize; 2]) -> Result<Self, PolicyError> {
-        let fail = |error| PolicyError::run(folder, error);
-        std::fs::create_dir_all(folder).map_err(fail)?;
-        if std::fs::read_dir(folder).map_err(fail)?.next().is_some() {
-            let message = "it is not empty: name another folder, or resume the run that is there";
-            return Err(PolicyError::run(folder, message));
-        }
+    /// The folder holds something or cannot be written; settings make no sense; there is no teacher where one is needed, or it fails; the
+    /// environment is hardware.
+    pub fn create(
+        folder: &Path,
+        config: Config,
+        env: &Env,
+        threads: usize,
+        tell: impl FnMut(&Demonstrations),
+    ) -> Result<Self, PolicyError> {
+        refuse_full(folder)?;
         config.learning.check().map_err(|message| PolicyError::run(folder, message))?;
-        let learner = Learner::new(config.learning.clone(), config.seed, env);
+        let mut learner = Learner::new(config.learning.clone(), config.seed, env);
         learner.check_size().map_err(|error| PolicyError::run(folder, error))?;
-        let collector = Collector::new(env, sizes[0], sizes[1])?;
+        // A teacher that fails leaves no folder.
+        if let Some(teaching) = config.teaching()? {
+            learner.teach(teacher::shown(teaching, config.seed, env, tell)?);
+        }
+        let collector = collector(&config, env, threads)?;
+        std::fs::create_dir_all(folder).map_err(|error| PolicyError::run(folder, error))?;
         config.write(&folder.join(CONFIG))?;
         let log = Log::open(folder, 0)?;
         let mut run = Run { folder: folder.into(), config, learner, collector, log, kept: 0 };
         run.keep()?;
         Ok(run)
-    }
-
-    /// Lets the run learn from demonstrations, and keeps them in its folder.
-    ///
-    /// # Errors
-    /// The run has begun; the file cannot be written.
-    pub fn teach(&mut self, mut demonstrations: Demonstrations) -> Result<(), PolicyError> {
-        if self.iterations() > 0 {
-            let message = "it has begun without these demonstrations: begin another run with them";
-            return Err(PolicyError::run(&self.folder, message));
-        }
-        demonstrations.save(&self.folder.join(DEMONSTRATIONS))?;
-        self.learner.teach(demonstrations);
-        Ok(())
-    }
-
-    /// Lets teachers, one made for each environment, correct what the policy does: what dataset aggregation learns from.
-    ///
-    /// # Errors
-    /// A teacher cannot be made.
-    pub fn correct(
-        &mut self,
-        make: impl FnMut(&Env) -> Result<Box<dyn Teacher + Send>, PolicyError>,
-    ) -> Result<(), PolicyError> {
-        self.collector.teach(make)
     }
 
     /// What the run in a folder is of.
@@ -146,7 +126,7 @@ impl Run {
     /// # Errors
     /// There is no checkpoint.
     pub fn iterations_of(folder: &Path) -> Result<u64, PolicyError> {
-        Card::of_checkpoint(&folder.join(CHECKPOINT)).map(|card| card.iterations)
+        Card::of_file(&folder.join(CHECKPOINT)).map(|card| card.iterations)
     }
 
     /// The file of the policy of the run in a folder.
@@ -154,11 +134,11 @@ impl Run {
         folder.join(POLICY)
     }
 
-    /// Goes on with the run in a folder, from its last checkpoint.
+    /// Goes on with the run in a folder, from its last checkpoint, on so many threads.
     ///
     /// # Errors
-    /// There is no run; the environment is not its; the files cannot be read or written.
-    pub fn resume(folder: &Path, env: &Env, sizes: [usize; 2]) -> Result<Self, PolicyError> {
+    /// There is no run; the environment is not its; the files cannot be read or written; its teacher is needed again and is not there.
+    pub fn resume(folder: &Path, env: &Env, threads: usize) -> Result<Self, PolicyError> {
         let config = Self::config_of(folder)?;
         let mut learner = Learner::resume(&folder.join(CHECKPOINT), env)?;
         if (learner.settings(), learner.seed()) != (&config.learning, config.seed) {
@@ -174,7 +154,7 @@ impl Run {
             }
             learner.teach(demonstrations);
         }
-        let collector = Collector::new(env, sizes[0], sizes[1])?;
+        let collector = collector(&config, env, threads)?;
         let kept = learner.iterations;
         let log = Log::open(folder, kept)?;
         Ok(Run { folder: folder.into(), config, learner, collector, log, kept })
@@ -227,14 +207,14 @@ impl Run {
         if self.kept == self.iterations() && self.folder.join(CHECKPOINT).exists() {
             return Ok(());
         }
-        // What was corrected comes first: of more than the checkpoint knows, the rest is left out when the run goes on.
-        if self.config.learning.algorithm.needs_corrections()
-            && let Some(demonstrations) = self.learner.demonstrations()
-        {
+        // Demonstrations come first: of more corrections than the checkpoint knows, the rest is left out when the run goes on.
+        let grow = self.iterations() == 0 || self.config.learning.algorithm.needs_corrections();
+        if let Some(demonstrations) = self.learner.demonstrations().filter(|_| grow) {
             demonstrations.save(&self.folder.join(DEMONSTRATIONS))?;
         }
-        self.learner.save_policy(&self.config.id, &self.folder.join(POLICY))?;
-        self.learner.save(&self.config.id, &self.folder.join(CHECKPOINT))?;
+        let (id, teacher) = (&self.config.id, self.config.teacher.as_ref());
+        self.learner.save_policy(id, teacher, &self.folder.join(POLICY))?;
+        self.learner.save(id, &self.folder.join(CHECKPOINT))?;
         self.kept = self.iterations();
         Ok(())
     }
@@ -243,4 +223,34 @@ impl Run {
     pub fn policy(&self) -> PathBuf {
         Self::policy_of(&self.folder)
     }
+}
+
+/// Refuses a folder that holds something.
+fn refuse_full(folder: &Path) -> Result<(), PolicyError> {
+    let mut entries = match std::fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(()),
+        Err(error) => return Err(PolicyError::run(folder, error)),
+    };
+    match entries.next() {
+        None => Ok(()),
+        Some(_) => {
+            let message = "it is not empty: name another folder, or resume the run that is there";
+            Err(PolicyError::run(folder, message))
+        }
+    }
+}
+
+/// What collects episodes, with teachers who correct them where that is learnt from.
+fn collector(config: &Config, env: &Env, threads: usize) -> Result<Collector, PolicyError> {
+    let threads = match threads {
+        0 => std::thread::available_parallelism().map_or(1, usize::from),
+        threads => threads,
+    };
+    let mut collector = Collector::new(env, SIDE_BY_SIDE, threads)?;
+    let corrects = config.learning.algorithm.needs_corrections();
+    if let Some(teaching) = config.teaching()?.filter(|_| corrects) {
+        collector.teach(|env| teacher(&teaching.by, env))?;
+    }
+    Ok(collector)
 }

@@ -91,7 +91,7 @@ fn corrections_teach_what_demonstrations_do_not_show() {
         learner.teach(play(ID, &mut Bent, 2, 0.0, 3).unwrap());
         (0..12).for_each(|_| _ = learner.iterate(collector).unwrap());
         let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        learner.save_policy(ID, &path).unwrap();
+        learner.save_policy(ID, None, &path).unwrap();
         let mut policy = Policy::open(&path).unwrap();
         (70..80).map(|seed| mean_error(&mut policy, seed)).sum::<f64>() / 10.0
     };
@@ -136,7 +136,7 @@ fn a_clone_acts_as_its_teacher() {
     let after = learner.iterate(&mut collector).unwrap();
     assert!(after.update.entropy < before.update.entropy - 0.2, "{before:?} {after:?}");
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("clone.safetensors");
-    learner.save_policy(ID, &path).unwrap();
+    learner.save_policy(ID, None, &path).unwrap();
     let (mut clone, mut env, mut away) = (Policy::open(&path).unwrap(), self::env(ID), 0.0_f64);
     env.reset(Some(77)).unwrap();
     let mut action = vec![0.0; env.action_len()];

@@ -1,6 +1,6 @@
 //! Runs in folders: what an interruption changes, what the files hold, and what is refused.
 
-use agents::learn::{Algorithm, Demonstrations, Fit, Lessons, Settings};
+use agents::learn::{Algorithm, Fit, Lessons, Settings, Teaching};
 use agents::run::{COLUMNS, Config, Run};
 use agents::{Policy, PolicyError};
 use env::{Env, Options, OwnModels};
@@ -28,20 +28,13 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
+/// A small training, with a teacher where there is something to learn from one.
 fn config(mut learning: Settings) -> Config {
     (learning.episodes, learning.hidden) = (4, [vec![8, 8], vec![8]]);
-    let environment = env::Arguments::default();
-    Config {
-        id: ID.into(),
-        seed: 3,
-        iterations: 4,
-        keep_every: 2,
-        compat: None,
-        solver: None,
-        environment,
-        teacher: None,
-        learning,
-    }
+    let lessons = Lessons { episodes: 2, noise: 0.1 };
+    let teaching = Teaching { by: "muscle_pose".into(), lessons };
+    let teacher = learning.algorithm.needs_demonstrations().then_some(teaching);
+    Config { seed: 3, iterations: 4, keep_every: 2, teacher, ..Config::new(ID, learning) }
 }
 
 /// The log without the times.
@@ -72,23 +65,6 @@ fn bytes(folder: &Path, file: &str) -> Vec<u8> {
     std::fs::read(folder.join(file)).unwrap()
 }
 
-/// Corrects the policy where that is learnt from: no muscle is to be excited.
-fn correct(run: &mut Run) {
-    if run.config().learning.algorithm.needs_corrections() {
-        run.correct(|_| Ok(Box::new(Policy::Zero))).unwrap();
-    }
-}
-
-/// Shows what is to be learnt, where it is learnt from that: which poses an elbow reaches by itself.
-fn teach(run: &mut Run) {
-    if run.config().learning.algorithm.needs_demonstrations() {
-        let (mut env, lessons) = (env(ID), Lessons { episodes: 2, noise: 0.1 });
-        let shown = Demonstrations::play(&mut env, &mut Policy::Zero, lessons, 3, |_| ()).unwrap();
-        run.teach(shown).unwrap();
-        correct(run);
-    }
-}
-
 /// Three iterations, of which the third comes after the last checkpoint, and then a process that ends.
 #[test]
 fn an_interrupted_run_ends_in_the_same_bits() {
@@ -101,18 +77,15 @@ fn an_interrupted_run_ends_in_the_same_bits() {
         ("sac", sac()),
     ] {
         let (whole, parts) = (folder(&format!("{name}_whole")), folder(&format!("{name}_parts")));
-        let mut run = Run::create(&whole, config(learning.clone()), &env(ID), [4, 1]).unwrap();
-        teach(&mut run);
+        let mut run = Run::create(&whole, config(learning.clone()), &env(ID), 1, |_| ()).unwrap();
         while !run.is_finished() {
             run.iterate().unwrap();
         }
-        let mut run = Run::create(&parts, config(learning), &env(ID), [2, 2]).unwrap();
-        teach(&mut run);
+        let mut run = Run::create(&parts, config(learning), &env(ID), 2, |_| ()).unwrap();
         (0..3).for_each(|_| _ = run.iterate().unwrap());
         drop(run);
         assert_eq!(rows(&parts).len(), 4, "a header and three rows");
-        let mut run = Run::resume(&parts, &env(ID), [3, 2]).unwrap();
-        correct(&mut run);
+        let mut run = Run::resume(&parts, &env(ID), 2).unwrap();
         assert_eq!(run.iterations(), 2);
         while !run.is_finished() {
             let row = run.iterate().unwrap();
@@ -140,7 +113,7 @@ fn an_interrupted_run_ends_in_the_same_bits() {
 #[test]
 fn the_policy_of_a_run_acts_as_it_did_in_training() {
     let place = folder("acts");
-    let mut run = Run::create(&place, config(Settings::npg()), &env(ID), [4, 1]).unwrap();
+    let mut run = Run::create(&place, config(Settings::npg()), &env(ID), 1, |_| ()).unwrap();
     run.iterate().unwrap();
     run.keep().unwrap();
     let mut env = env(ID);
@@ -154,7 +127,12 @@ fn the_policy_of_a_run_acts_as_it_did_in_training() {
     assert!(actions[0].iter().any(|value| *value != 0.0));
     let Policy::Trained(trained) = Policy::open(run.policy()).unwrap() else { panic!("a trained policy") };
     let Algorithm::Npg(npg) = trained.card().settings.algorithm else { panic!("by NPG") };
-    assert!(npg.step == 0.1 && trained.card().iterations == 1 && trained.card().samples > 0);
+    assert!(
+        trained.card().teacher.is_none()
+            && npg.step == 0.1
+            && trained.card().iterations == 1
+            && trained.card().samples > 0
+    );
     let other = self::env("hive/FrankaReach-v0");
     let error = Policy::open(run.policy()).unwrap().action(&other, &mut vec![0.0; other.action_len()]);
     assert!(error.unwrap_err().to_string().contains("trained on hive/myoElbowPose1D6MRandom-v0"));
@@ -164,15 +142,27 @@ fn the_policy_of_a_run_acts_as_it_did_in_training() {
 fn what_is_no_run_is_refused() {
     let place = folder("refused");
     let says = |error: PolicyError| error.to_string();
-    let resumed = |place: &Path, id: &str| Run::resume(place, &env(id), [1, 1]).map(drop).map_err(says);
+    let resumed = |place: &Path, id: &str| Run::resume(place, &env(id), 1).map(drop).map_err(says);
     assert!(resumed(&place, ID).unwrap_err().contains("run.toml"));
-    let mut run = Run::create(&place, config(Settings::ppo()), &env(ID), [1, 1]).unwrap();
+    let mut run = Run::create(&place, config(Settings::ppo()), &env(ID), 1, |_| ()).unwrap();
     run.keep().unwrap();
-    let again = Run::create(&place, config(Settings::ppo()), &env(ID), [1, 1]).map(drop).map_err(says);
+    let again = Run::create(&place, config(Settings::ppo()), &env(ID), 1, |_| ()).map(drop).map_err(says);
     assert!(again.unwrap_err().contains("not empty"));
     let single = Settings { fit: Fit { batch: 1, ..sac().fit }, ..sac() };
-    let why = Run::create(&folder("single"), config(single), &env(ID), [1, 1]).map(drop).map_err(says);
+    let why = Run::create(&folder("single"), config(single), &env(ID), 1, |_| ()).map(drop).map_err(says);
     assert!(why.unwrap_err().contains("fit.batch must be at least 2 for sac"));
+    for (algorithm, by, why) in [
+        (Settings::cloning(), None, "learn from a teacher: name a controller"),
+        (Settings::ppo(), Some("muscle_pose"), "only bc, dagger and dapg learn from a teacher"),
+        (Settings::dagger(), Some("nobody"), "nobody is no controller"),
+        (Settings::dagger(), Some("trot"), "trot"),
+    ] {
+        let lessons = Lessons { episodes: 2, noise: 0.1 };
+        let teacher = by.map(|by| Teaching { by: by.into(), lessons });
+        let (place, config) = (folder("taught"), Config { teacher, ..config(algorithm) });
+        let refused = Run::create(&place, config, &env(ID), 1, |_| ()).map(drop).map_err(says).unwrap_err();
+        assert!(refused.contains(why) && !place.exists(), "{refused}");
+    }
     assert!(resumed(&place, "hive/ElbowPose-v0").unwrap_err().contains("it was trained on hive/myoElbow"));
     let text = std::fs::read_to_string(place.join("run.toml")).unwrap();
     for (from, to) in [("seed = 3", "seed = 4"), ("gamma = 0.97", "gamma = 0.9")] {
@@ -187,7 +177,20 @@ fn what_is_no_run_is_refused() {
     assert!(resumed(&place, ID).unwrap_err().contains("it has 0 rows, and the checkpoint is of iteration 1"));
     std::fs::write(place.join("log.csv"), &log[1..]).unwrap();
     assert!(resumed(&place, ID).unwrap_err().contains("does not name the columns"));
+    assert_eq!(Run::iterations_of(&place).unwrap(), 1);
     let file = place.join("checkpoint.safetensors");
+    let whole = std::fs::read(&file).unwrap();
+    for (bytes, why) in [
+        (&whole[..4], "failed to fill"),
+        (&whole[..20], "header"),
+        (&[255; 20], "header is longer than any"),
+        (b"\x02\0\0\0\0\0\0\0{}", "metadata have no \"robohive\""),
+    ] {
+        std::fs::write(&file, bytes).unwrap();
+        let says = Run::iterations_of(&place).unwrap_err().to_string();
+        assert!(says.contains(why), "{says}");
+    }
+    std::fs::write(&file, whole).unwrap();
     let whole = std::fs::read(&file).unwrap();
     for cut in [0, 7, 9, 200, whole.len() - 1] {
         std::fs::write(&file, &whole[..cut]).unwrap();

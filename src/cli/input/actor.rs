@@ -3,8 +3,7 @@
 use crate::failure::Failure;
 use crate::input::policy::{BEST, policy, shipped};
 use crate::terminal::{note, show};
-use agents::learn::Teacher;
-use agents::{Policy, PolicyError};
+use agents::Policy;
 use clap::Args;
 use control::Controller;
 use env::Env;
@@ -120,39 +119,6 @@ impl Actor {
             Actor::Controller(controller) => controller.act(env, action).map_err(Failure::new),
         }
     }
-}
-
-/// The teacher of a name: a controller, or a file with a policy.
-///
-/// # Errors
-/// There is no such controller and no such file; the controller serves other environments.
-pub fn teacher(name: &str, env: &Env) -> Result<Actor, Failure> {
-    if control::controllers().iter().any(|entry| entry.name == name) {
-        return control::make(name, env).map(Actor::Controller).map_err(Failure::usage);
-    }
-    let policy = Policy::open(name).map_err(|error| {
-        let id = &env.spec().id;
-        Failure::usage(format!(
-            "a teacher is a controller or the file of a policy, and {name} is no controller: {error}; `robohive run {id} \
-             --controller list` shows controllers"
-        ))
-    })?;
-    Ok(Actor::Policy { now: policy.clone(), policy })
-}
-
-impl Teacher for Actor {
-    fn begin(&mut self, env: &Env, seed: u64) -> Result<(), PolicyError> {
-        Actor::begin(self, env, seed).map_err(|failure| fault(env, failure))
-    }
-
-    fn act(&mut self, env: &Env, action: &mut [f64]) -> Result<(), PolicyError> {
-        Actor::act(self, env, action).map_err(|failure| fault(env, failure))
-    }
-}
-
-/// A failure as that of a teacher.
-pub fn fault(env: &Env, failure: Failure) -> PolicyError {
-    PolicyError::Teacher { id: env.spec().id.clone(), message: failure.to_string() }
 }
 
 /// The controllers that serve an environment, the best first; where there are none, all.

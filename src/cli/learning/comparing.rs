@@ -1,8 +1,8 @@
 //! What the combinations of a sweep reached, side by side.
 
-use super::varying::{Combination, described};
 use crate::terminal::{note, show, show_json};
 use agents::run::Row;
+use agents::sweep::Combination;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -37,7 +37,7 @@ impl Compared<'_> {
     }
 
     fn line(&self) -> String {
-        let settings = described(&self.combination.settings);
+        let settings = self.combination.described();
         let seeds = match self.finished.len() {
             all if all == self.runs => all.to_string(),
             some => format!("{some} of {}", self.runs),

@@ -2,7 +2,6 @@
 
 use super::playing::Playing;
 use super::starting::environment;
-use super::varying::short;
 use crate::failure::{Failure, unwritable};
 use crate::input::library::Making;
 use crate::output::check_place;
@@ -10,6 +9,7 @@ use crate::terminal::{note, show, show_json};
 use agents::Policy;
 use agents::run::{Config, Row, Run};
 use agents::statistics::{bootstrap, interquartile_mean, profile};
+use agents::sweep::short;
 use clap::{Args, ValueHint};
 use env::episode::evaluate;
 use identify::{Curve, plot};

@@ -1,18 +1,17 @@
 //! How runs start: from arguments to a configuration, its environment, and a run in a folder.
 
-use super::teacher::{TeacherArguments, correct, teach};
+use super::teacher::TeacherArguments;
 use crate::failure::Failure;
 use crate::input::library::Making;
 use crate::input::policy::failure;
 use crate::input::solver::SolverArgument;
-use agents::learn::Settings;
+use agents::learn::{Algorithm, Demonstrations, Settings};
 use agents::run::{Config, Run};
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use env::{Compat, Env};
+use indicatif::{ProgressBar, ProgressStyle};
 use std::path::Path;
-
-/// Environments that each thread steps side by side: networks are faster on several rows.
-const SIDE_BY_SIDE: usize = 16;
 
 /// What is trained, and how.
 #[derive(Args)]
@@ -21,31 +20,14 @@ pub struct Starting {
     #[command(flatten)]
     pub making: Making,
     /// How it is learnt [default: npg, or what CONFIG says]
-    #[arg(long, value_name = "NAME")]
-    algo: Option<AlgorithmName>,
+    #[arg(long, value_name = "NAME", value_parser = algorithms())]
+    algo: Option<String>,
     /// Who shows how it is done
     #[command(flatten)]
     teacher: TeacherArguments,
     /// Iterations from one checkpoint to the next [default: 10, or what CONFIG says]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     keep_every: Option<u64>,
-}
-
-/// Algorithms by name.
-#[derive(Clone, Copy, ValueEnum)]
-enum AlgorithmName {
-    /// The natural policy gradient
-    Npg,
-    /// Proximal policy optimisation
-    Ppo,
-    /// Soft actor-critic: learns again and again from all it remembers, where steps are slow
-    Sac,
-    /// Behaviour cloning: only from demonstrations
-    Bc,
-    /// Behaviour cloning of a teacher who corrects the policy's own episodes (dataset aggregation)
-    Dagger,
-    /// The natural policy gradient with demonstrations
-    Dapg,
 }
 
 impl Starting {
@@ -58,25 +40,14 @@ impl Starting {
             Config::read(Path::new(what)).map_err(failure)?
         } else {
             Config {
-                id: what.into(),
-                seed: 1,
-                iterations: 100,
-                keep_every: 10,
                 compat: Some(self.making.compat.to_string()),
                 solver: Some(self.making.solver.name()),
                 environment: self.making.changes()?,
-                teacher: None,
-                learning: Settings::npg(),
+                ..Config::new(what, Settings::npg())
             }
         };
-        match self.algo {
-            None => {}
-            Some(AlgorithmName::Npg) => config.learning = Settings::npg(),
-            Some(AlgorithmName::Ppo) => config.learning = Settings::ppo(),
-            Some(AlgorithmName::Bc) => config.learning = Settings::cloning(),
-            Some(AlgorithmName::Dagger) => config.learning = Settings::dagger(),
-            Some(AlgorithmName::Sac) => config.learning = Settings::sac(),
-            Some(AlgorithmName::Dapg) => config.learning = Settings::dapg(),
+        if let Some(settings) = self.algo.as_deref().and_then(Settings::named) {
+            config.learning = settings;
         }
         config.teacher = self.teacher.given(config.teacher)?;
         config.keep_every = self.keep_every.unwrap_or(config.keep_every);
@@ -105,6 +76,11 @@ impl Starting {
     }
 }
 
+/// Algorithms by name.
+fn algorithms() -> PossibleValuesParser {
+    PossibleValuesParser::new(Algorithm::NAMES.map(|(name, what)| PossibleValue::new(name).help(what)))
+}
+
 /// How a configuration says that its environment is made.
 fn made(mut making: Making, config: &Config) -> Result<Making, Failure> {
     if let Some(compat) = &config.compat {
@@ -127,27 +103,17 @@ pub fn environment(making: Making, config: &Config) -> Result<Env, Failure> {
     Env::make(&config.id, &library, &options).map_err(Failure::usage)
 }
 
-/// Begins the run of a configuration in a new or empty folder, on so many threads.
+/// Begins the run of a configuration in a new or empty folder, with this number of threads.
 ///
 /// # Errors
 /// A teacher fails; the folder holds something or cannot be written.
 pub fn begin(folder: &Path, config: Config, env: &Env, threads: usize, quiet: bool) -> Result<Run, Failure> {
-    // Demonstrations come first: a teacher that fails leaves no folder.
-    let demonstrations = teach(&config, env, quiet)?;
-    let mut run = Run::create(folder, config, env, [SIDE_BY_SIDE, threads]).map_err(failure)?;
-    if let Some(demonstrations) = demonstrations {
-        run.teach(demonstrations).map_err(failure)?;
-    }
-    correct(&mut run)?;
-    Ok(run)
-}
-
-/// Resumes the run in a folder, on so many threads.
-///
-/// # Errors
-/// There is no run, or it is damaged; its teacher is needed and missing.
-pub fn resume(folder: &Path, env: &Env, threads: usize) -> Result<Run, Failure> {
-    let mut run = Run::resume(folder, env, [SIDE_BY_SIDE, threads]).map_err(failure)?;
-    correct(&mut run)?;
-    Ok(run)
+    let asked = config.teacher.as_ref().filter(|_| !quiet).map_or(0, |teaching| teaching.lessons.episodes);
+    let bar = if asked == 0 { ProgressBar::hidden() } else { ProgressBar::new(asked) };
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} demonstrations, {eta} left");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let tell = |kept: &Demonstrations| bar.set_position(kept.sizes()[0] as u64);
+    let run = Run::create(folder, config, env, threads, tell);
+    bar.finish_and_clear();
+    run.map_err(failure)
 }

@@ -1,14 +1,13 @@
 //! `sweep`: runs over settings and seeds, several at a time.
 
 use super::comparing::{Compared, show_compared};
-use super::starting::{Starting, begin, environment, resume};
-use super::teacher::teaching;
-use super::varying::{Combination, Seeds, Variation, combinations, folder};
+use super::starting::{Starting, begin, environment};
+use super::varying::{Seeds, variation};
 use crate::failure::Failure;
-use crate::input::actor::teacher;
 use crate::input::policy::failure;
 use crate::interrupt::Interrupt;
-use agents::run::{Config, Run};
+use agents::run::{Config, Run, teacher};
+use agents::sweep::{Combination, Variation, combinations};
 use clap::{Args, ValueHint};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::ErrorKind;
@@ -45,7 +44,7 @@ pub struct Sweep {
     #[command(flatten)]
     starting: Starting,
     /// A setting, and the values that it takes; again for others, in every combination
-    #[arg(long, value_name = "KEY=V1,V2")]
+    #[arg(long, value_name = "KEY=V1,V2", value_parser = variation)]
     vary: Vec<Variation>,
     /// Seeds of each combination: N for 1 to N, or a list such as 1,2,5; "7," is the seed 7 alone [default: 1, or what CONFIG says]
     #[arg(long, value_name = "N|LIST")]
@@ -83,7 +82,7 @@ pub fn run(a: &Sweep) -> Result<(), Failure> {
     a.starting.check(&config)?;
     config.iterations = a.iterations.unwrap_or(config.iterations);
     let seeds = a.seeds.as_ref().map_or(vec![config.seed], |Seeds(seeds)| seeds.clone());
-    let combinations = combinations(&config, &a.vary, seeds.len())?;
+    let combinations = combinations(&config, &a.vary, seeds.len()).map_err(failure)?;
     check(a, &combinations)?;
     let runs = plan(&a.out, &combinations, &seeds)?;
     let interrupt = Interrupt::listen().map_err(Failure::new)?;
@@ -123,13 +122,13 @@ fn check(a: &Sweep, combinations: &[Combination]) -> Result<(), Failure> {
         (id, compat, solver, environment, teacher)
     };
     for (place, Combination { config, .. }) in combinations.iter().enumerate() {
-        let taught = teaching(config)?;
+        let taught = config.teaching().map_err(failure)?;
         // Environments can be slow to make, and most sweeps have one.
         if combinations[..place].iter().any(|other| made(&other.config) == made(config)) {
             continue;
         }
         let env = environment(a.starting.making.clone(), config)?;
-        taught.map_or(Ok(()), |taught| teacher(&taught.by, &env).map(drop))?;
+        taught.map_or(Ok(()), |taught| teacher(&taught.by, &env).map(drop)).map_err(failure)?;
     }
     Ok(())
 }
@@ -137,12 +136,12 @@ fn check(a: &Sweep, combinations: &[Combination]) -> Result<(), Failure> {
 /// The runs that are asked for, with what there is of them.
 fn plan(out: &Path, combinations: &[Combination], seeds: &[u64]) -> Result<Vec<Planned>, Failure> {
     let mut runs = Vec::new();
-    for (combination, Combination { settings, config }) in combinations.iter().enumerate() {
+    for (place, combination) in combinations.iter().enumerate() {
         for &seed in seeds {
-            let config = Config { seed, ..config.clone() };
-            let folder = out.join(folder(settings, seed));
+            let config = Config { seed, ..combination.config.clone() };
+            let folder = out.join(combination.folder(seed));
             let made = made(&folder, &config)?;
-            runs.push(Planned { combination, folder, config, made });
+            runs.push(Planned { combination: place, folder, config, made });
         }
     }
     Ok(runs)
@@ -215,7 +214,7 @@ fn train(a: &Sweep, planned: &Planned, interrupt: &Interrupt, bar: &ProgressBar)
     let mut run = match made {
         None => begin(folder, config.clone(), &env, 1, true)?,
         Some(_) => {
-            let mut run = resume(folder, &env, 1)?;
+            let mut run = Run::resume(folder, &env, 1).map_err(failure)?;
             run.extend(config.iterations).map_err(failure)?;
             run
         }

@@ -1,13 +1,8 @@
 //! Who shows a training how its task is done.
 
 use crate::failure::Failure;
-use crate::input::actor::{fault, teacher};
-use crate::input::policy::failure;
-use agents::learn::{Demonstrations, Lessons};
-use agents::run::{Config, Run, Teaching};
+use agents::learn::{Lessons, Teaching};
 use clap::Args;
-use env::Env;
-use indicatif::{ProgressBar, ProgressStyle};
 
 /// Demonstrations where nothing is said, and the deviation of what disturbs them.
 const DEFAULT: Lessons = Lessons { episodes: 50, noise: 0.05 };
@@ -48,57 +43,4 @@ impl TeacherArguments {
         };
         Ok(Some(Teaching { by, lessons }))
     }
-}
-
-/// Who teaches a configuration; nobody where nothing is learnt from demonstrations.
-///
-/// # Errors
-/// There is no teacher where one is needed, or one where none is.
-pub fn teaching(config: &Config) -> Result<Option<&Teaching>, Failure> {
-    match (&config.teacher, config.learning.algorithm.needs_demonstrations()) {
-        (None, false) => Ok(None),
-        (None, true) => {
-            Err(Failure::usage("bc, dagger and dapg learn from a teacher: add --teacher NAME|FILE"))
-        }
-        (Some(_), false) => Err(Failure::usage(
-            "only bc, dagger and dapg learn from a teacher: add --algo bc, dagger or dapg",
-        )),
-        (Some(teaching), true) => Ok(Some(teaching)),
-    }
-}
-
-/// The demonstrations of a configuration, played now; none where nothing is learnt from them.
-///
-/// # Errors
-/// [`teaching`] refuses; the teacher fails.
-pub fn teach(config: &Config, env: &Env, quiet: bool) -> Result<Option<Demonstrations>, Failure> {
-    let Some(Teaching { by, lessons }) = teaching(config)? else { return Ok(None) };
-    let mut env = env.fork().map_err(Failure::new)?;
-    let mut teacher = teacher(by, &env)?;
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} demonstrations, {eta} left");
-    let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(lessons.episodes) };
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    let tell = |kept: &Demonstrations| bar.set_position(kept.sizes()[0] as u64);
-    let played = Demonstrations::play(&mut env, &mut teacher, *lessons, config.seed, tell);
-    bar.finish_and_clear();
-    played.map(Some).map_err(Failure::usage)
-}
-
-/// Lets the teacher of a run correct what its policy does, where that is learnt from.
-///
-/// # Errors
-/// The run does not say who its teacher is; it is no teacher for the environment.
-pub fn correct(run: &mut Run) -> Result<(), Failure> {
-    if !run.config().learning.algorithm.needs_corrections() {
-        return Ok(());
-    }
-    let Some(Teaching { by, .. }) = run.config().teacher.clone() else {
-        return Err(Failure::usage(
-            "dagger asks a teacher in every iteration, and run.toml names none: add a [teacher]",
-        ));
-    };
-    let made = run.correct(|env| {
-        teacher(&by, env).map(|actor| Box::new(actor) as _).map_err(|failure| fault(env, failure))
-    });
-    made.map_err(failure)
 }

@@ -1,6 +1,6 @@
 //! `train`: learn a policy, in a folder from which it can be resumed.
 
-use super::starting::{Starting, begin, environment, resume};
+use super::starting::{Starting, begin, environment};
 use crate::failure::Failure;
 use crate::input::policy::failure;
 use crate::interrupt::Interrupt;
@@ -36,8 +36,8 @@ Examples:
   robohive train elbow/run.toml --seed 2 --out elbow2
   robohive train hive/FrankaReach-v0 --algo ppo --iterations 1 --out reach --quiet
   robohive train hive/myoElbowPose1D6MRandom-v0 --algo sac --iterations 1 --out soft --quiet
-  robohive train hive/FrankaReach-v0 --algo bc --teacher reach --demonstrations 5 --iterations 1 --out clone
-  robohive train hive/FrankaReach-v0 --algo dagger --teacher reach --demonstrations 2 --iterations 1 --out corrected --quiet"
+  robohive train hive/FrankaReach-v0 --algo bc --teacher reach --iterations 1 --out clone --quiet
+  robohive train hive/FrankaReach-v0 --algo dagger --teacher reach --iterations 1 --out dagger"
 )]
 pub struct Train {
     /// Id of the environment, or the run.toml of a run to make again
@@ -100,13 +100,11 @@ pub fn run(a: &Train) -> Result<(), Failure> {
 
 /// The run to make or to resume, and its folder.
 fn open(a: &Train) -> Result<(PathBuf, Run), Failure> {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = if a.threads == 0 { cores } else { a.threads };
     if let Some(folder) = &a.resume {
         let config = Run::config_of(folder).map_err(failure)?;
         a.starting.check(&config)?;
         let env = environment(a.starting.making.clone(), &config)?;
-        let run = resume(folder, &env, threads)?;
+        let run = Run::resume(folder, &env, a.threads).map_err(failure)?;
         return Ok((folder.clone(), run));
     }
     let what = a.what.as_deref().ok_or_else(|| Failure::usage("ID or CONFIG is needed"))?;
@@ -117,7 +115,7 @@ fn open(a: &Train) -> Result<(PathBuf, Run), Failure> {
     let name = format!("{}-seed{}", config.id.replace('/', "-"), config.seed);
     let folder = a.out.clone().unwrap_or_else(|| name.into());
     let env = environment(a.starting.making.clone(), &config)?;
-    let run = begin(&folder, config, &env, threads, a.quiet)?;
+    let run = begin(&folder, config, &env, a.threads, a.quiet)?;
     Ok((folder, run))
 }
 

@@ -61,7 +61,7 @@ fn a_report_compares_seeds() {
 fn who_teaches_is_said_where_it_is_needed() {
     let id = "hive/FrankaReach-v0";
     for (arguments, why) in [
-        (&["--algo", "bc"][..], "add --teacher NAME|FILE"),
+        (&["--algo", "bc"][..], "name a controller or the file of a policy (--teacher)"),
         (&["--teacher", "reach"], "only bc, dagger and dapg learn from a teacher"),
         (
             &["--algo", "dapg", "--demonstrations", "3"],
@@ -156,7 +156,7 @@ fn a_sweep_says_what_is_wrong_before_it_begins() {
         (&["--vary", "learning.episodes=4,5", "--seeds", "501"], "these are 1002 runs"),
         (&["--vary", "seed=1,2"], "--seeds"),
         (&["--seeds", "1,1"], "the seed 1 is there twice"),
-        (&["--algo", "bc"], "add --teacher NAME|FILE"),
+        (&["--algo", "bc"], "name a controller or the file of a policy (--teacher)"),
         (&["--algo", "bc", "--teacher", "nobody"], "nobody is no controller"),
     ] {
         let said = refused(&[&["sweep", ID, "--out", &out], arguments].concat());

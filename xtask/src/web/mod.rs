@@ -8,7 +8,7 @@ mod offline;
 
 use crate::command::{installed, succeed, target_folder};
 use crate::outcome::Outcome;
-use files::{copy, remove, write};
+use files::{copy, copy_all, remove, write};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -25,6 +25,9 @@ const MODULES: [(&str, &str, &str); 2] = [
 /// Files of the page that are written by hand.
 const PAGE: &str = "web/page";
 
+/// Policies that a page fetches when it is asked for one.
+const POLICIES: &str = "assets/policies";
+
 /// Builds the page into `folder`, or `web` in the target folder, and tests it as far as this machine can.
 pub fn run(words: &[&str]) -> Outcome {
     let folder = match words.first() {
@@ -37,7 +40,6 @@ pub fn run(words: &[&str]) -> Outcome {
 }
 
 fn build(folder: &Path) -> Result<(), String> {
-    fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let packages = MODULES.iter().flat_map(|(package, _, _)| ["-p", package]);
     let mut build = Command::new("cargo");
     build.args(["build", "--profile", PROFILE, "--lib", "--target", TARGET]).args(packages);
@@ -45,10 +47,8 @@ fn build(folder: &Path) -> Result<(), String> {
     for (_, name, file) in MODULES {
         bind::bind(&target_folder()?.join(TARGET).join(PROFILE).join(file), name, folder)?;
     }
-    for entry in fs::read_dir(PAGE).map_err(|error| format!("{PAGE}: {error}"))? {
-        let path = entry.map_err(|error| format!("{PAGE}: {error}"))?.path();
-        copy(&path, &folder.join(path.file_name().unwrap_or_default()))?;
-    }
+    copy_all(Path::new(PAGE), folder)?;
+    copy_all(Path::new(POLICIES), &folder.join("policies"))?;
     copy(Path::new("LICENSE"), &folder.join("LICENSE"))?;
     write(&folder.join("THIRD_PARTY.txt"), &notices::of("robohive-web-app", TARGET)?)?;
     write_made(folder)
