@@ -94,7 +94,7 @@ def configuration(
 
 
 def complete(config: Mapping[str, Any]) -> dict[str, Any]:
-    """A configuration as a run.toml has it: numbers in the precision that they are used in.
+    """A configuration as a run.toml has it: numbers rounded to the precision that they are used in.
 
     Raises:
         ValueError: a setting is unknown or of another type.

@@ -150,8 +150,11 @@ fn configuration(config: &Bound<'_, PyDict>) -> PyResult<Config> {
 }
 
 fn as_python<'py>(py: Python<'py>, what: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
-    let value = toml::Value::try_from(what).map_err(|error| PyValueError::new_err(error.to_string()))?;
-    python(py, &value)
+    let wrong = |error: String| PyValueError::new_err(error);
+    // Through text, whose numbers of single precision are as short as they can be.
+    let text = toml::to_string(what).map_err(|error| wrong(error.to_string()))?;
+    let table: toml::Table = text.parse().map_err(|error: toml::de::Error| wrong(error.to_string()))?;
+    python(py, &table.into())
 }
 
 fn columns<'py>(py: Python<'py>, row: &Row) -> PyResult<Bound<'py, PyDict>> {
