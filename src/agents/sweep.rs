@@ -1,4 +1,17 @@
 //! Sweeps: configurations of runs that differ in settings, and the folders that these name.
+//!
+//! ```
+//! use robohive_agents::learn::Settings;
+//! use robohive_agents::run::Config;
+//! use robohive_agents::sweep::{Variation, combinations};
+//!
+//! let base = Config::new("hive/FrankaReach-v0", Settings::ppo());
+//! let rates = Variation { key: "learning.fit.rate".into(), values: vec!["1e-3".into(), "3e-4".into()] };
+//! let found = combinations(&base, &[rates], 2)?;
+//! assert_eq!((found.len(), found[1].config.learning.fit.rate), (2, 3e-4));
+//! assert_eq!(found[1].folder(2), "fit.rate=3e-4-seed2");
+//! # Ok::<(), robohive_agents::PolicyError>(())
+//! ```
 
 use crate::error::PolicyError;
 use crate::run::Config;

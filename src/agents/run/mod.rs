@@ -75,7 +75,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// Begins a run in a new or empty folder, on environments like `env` and so many threads, 0 for as many as there are processors, which make
+    /// Begins a run in a new or empty folder, on environments like `env` with this number of threads, 0 for as many as there are processors, which make
     /// no difference to what is learnt. Where it is learnt from demonstrations, the teacher plays now, and each of its episodes is told of.
     ///
     /// # Errors
@@ -134,7 +134,7 @@ impl Run {
         folder.join(POLICY)
     }
 
-    /// Goes on with the run in a folder, from its last checkpoint, on so many threads.
+    /// Goes on with the run in a folder, from its last checkpoint, with this number of threads.
     ///
     /// # Errors
     /// There is no run; the environment is not its; the files cannot be read or written; its teacher is needed again and is not there.
