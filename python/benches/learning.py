@@ -32,6 +32,7 @@ import ppo
 IDS = ["hive/myoElbowPose1D6MRandom-v0", "hive/FrankaReach-v0"]
 HIDDEN = 64
 SAC_BATCH = 128
+BEGIN, END = "<!-- learning table begins -->", "<!-- learning table ends -->"
 SAC_STEPS = 2000
 
 
@@ -81,9 +82,8 @@ class TorchSac:
         self.policy, self.critics = network(seen, 2 * acts), [network(seen + acts, 1) for _ in range(2)]
         self.targets = copy.deepcopy(self.critics)
         self.log_temperature = torch.zeros(1, requires_grad=True)
-        adam = lambda parameters: torch.optim.Adam(parameters, lr=self.RATE)
-        self.of_policy, self.of_temperature = adam(self.policy.parameters()), adam([self.log_temperature])
-        self.of_critics = adam([p for critic in self.critics for p in critic.parameters()])
+        learnt = [self.policy.parameters(), [self.log_temperature], [p for c in self.critics for p in c.parameters()]]
+        self.of_policy, self.of_temperature, self.of_critics = (torch.optim.Adam(each, lr=self.RATE) for each in learnt)
         self.replay = np.zeros((self.ROOM, 2 * seen + acts + 2), np.float32)
         self.widths = [seen, acts, 1, seen, 1]
         self.count = 0
@@ -143,7 +143,7 @@ class TorchSac:
 
 def sides(id):
     """What is compared: a name, ours, and PyTorch's."""
-    horizon = gym.make(id).spec.max_episode_steps or gym.make(id).unwrapped.horizon
+    horizon = gym.make(id).unwrapped.horizon
     nets = {"hidden": [[HIDDEN, HIDDEN], [HIDDEN, HIDDEN]]}
     for batch in (64, 800):
         epochs = 10
@@ -176,7 +176,7 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     arguments.add_argument("--rounds", type=int, default=5)
     arguments.add_argument("--only", default="", help="part of an id or of an algorithm's row")
-    arguments.add_argument("--write", type=pathlib.Path)
+    arguments.add_argument("--write", type=pathlib.Path, help="a page whose table is replaced")
     given = arguments.parse_args()
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
@@ -189,14 +189,11 @@ def main():
                 lines.append(f"| {id} | {name} | {own:.0f} | {other:.0f} | {own / other:.1f} |")
                 print(lines[-1], flush=True)
     if given.write:
-        command = f"python python/benches/learning.py --rounds {given.rounds} --write {given.write}"
-        lines = [
-            "# Speed of learning", "",
-            f"`{command}`: samples collected and learnt from, a second of processor time, the median of {given.rounds} turns; torch "
-            f"{torch.__version__}. Networks of two hidden layers of {HIDDEN}; on one core and one thread, sides in turns.", "",
-            *lines, "",
-        ]
-        given.write.write_text("\n".join(lines))
+        before, found, rest = given.write.read_text().partition(BEGIN)
+        _, ended, after = rest.partition(END)
+        if not (found and ended):
+            raise SystemExit(f"{given.write} has no lines {BEGIN} and {END}, between which the table is written")
+        given.write.write_text("\n".join([before + BEGIN, *lines, END + after]))
 
 
 if __name__ == "__main__":

@@ -145,16 +145,17 @@ pub fn run_policy(folder: PathBuf) -> PathBuf {
 }
 
 fn configuration(config: &Bound<'_, PyDict>) -> PyResult<Config> {
-    let wrong = |error: toml::de::Error| PyValueError::new_err(error.to_string());
-    table(config)?.try_into().map_err(wrong)
+    table(config)?.try_into().map_err(not_toml)
+}
+
+fn not_toml(error: toml::de::Error) -> PyErr {
+    PyValueError::new_err(error.to_string())
 }
 
 fn as_python<'py>(py: Python<'py>, what: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
-    let wrong = |error: String| PyValueError::new_err(error);
     // Through text, whose numbers of single precision are as short as they can be.
-    let text = toml::to_string(what).map_err(|error| wrong(error.to_string()))?;
-    let table: toml::Table = text.parse().map_err(|error: toml::de::Error| wrong(error.to_string()))?;
-    python(py, &table.into())
+    let text = toml::to_string(what).map_err(|error| PyValueError::new_err(error.to_string()))?;
+    python(py, &toml::Value::Table(text.parse().map_err(not_toml)?))
 }
 
 fn columns<'py>(py: Python<'py>, row: &Row) -> PyResult<Bound<'py, PyDict>> {

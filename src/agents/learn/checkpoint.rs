@@ -68,16 +68,16 @@ impl Learner {
         self.seed
     }
 
-    /// Writes all of it into a file, which [`Learner::resume`] and, as a policy, [`Policy::open`](crate::Policy::open) read.
+    /// Writes all of it, and who taught it, into a file, which [`Learner::resume`] and, as a policy, [`Policy::open`](crate::Policy::open) read.
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn save(&mut self, id: &str, path: &Path) -> Result<(), PolicyError> {
-        let card = text(&self.card(id, None))?;
+    pub fn save(&mut self, id: &str, teacher: Option<&Teaching>, path: &Path) -> Result<(), PolicyError> {
+        let card = text(&self.card(id, teacher))?;
         archive::write(path, card, &self.entries(), archive::MAX_CHECKPOINT_BYTES)
     }
 
-    /// Writes the policy alone, which [`Policy::open`](crate::Policy::open) reads, with who taught it.
+    /// Writes the policy alone, and who taught it, into a file, which [`Policy::open`](crate::Policy::open) reads.
     ///
     /// # Errors
     /// The file cannot be written.

@@ -89,3 +89,16 @@ impl Settings {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_has_settings_of_its_algorithm() {
+        for (name, _) in Algorithm::NAMES {
+            assert_eq!(Settings::named(name).map(|settings| settings.algorithm.name()), Some(name));
+        }
+        assert_eq!(Settings::named("ddpg"), None);
+    }
+}

@@ -214,7 +214,7 @@ impl Run {
         }
         let (id, teacher) = (&self.config.id, self.config.teacher.as_ref());
         self.learner.save_policy(id, teacher, &self.folder.join(POLICY))?;
-        self.learner.save(id, &self.folder.join(CHECKPOINT))?;
+        self.learner.save(id, teacher, &self.folder.join(CHECKPOINT))?;
         self.kept = self.iterations();
         Ok(())
     }

@@ -13,13 +13,12 @@ pub fn copy(from: &Path, to: &Path) -> Result<(), String> {
     fs::copy(from, to).map(drop).map_err(|error| format!("{}: {error}", from.display()))
 }
 
-/// Copies all that is in a folder, folders within it too.
+/// Copies the files of a folder, which has no folders within it, into a folder that is made where it is missing.
 pub fn copy_all(from: &Path, to: &Path) -> Result<(), String> {
     fs::create_dir_all(to).map_err(|error| format!("{}: {error}", to.display()))?;
     for entry in fs::read_dir(from).map_err(|error| format!("{}: {error}", from.display()))? {
-        let path = entry.map_err(|error| format!("{}: {error}", from.display()))?.path();
-        let into = to.join(path.file_name().unwrap_or_default());
-        if path.is_dir() { copy_all(&path, &into)? } else { copy(&path, &into)? }
+        let entry = entry.map_err(|error| format!("{}: {error}", from.display()))?;
+        copy(&entry.path(), &to.join(entry.file_name()))?;
     }
     Ok(())
 }

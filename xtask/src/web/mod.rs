@@ -26,7 +26,7 @@ const MODULES: [(&str, &str, &str); 2] = [
 const PAGE: &str = "web/page";
 
 /// Policies that a page fetches when it is asked for one.
-const POLICIES: &str = "assets/policies";
+const POLICIES: &str = "assets/policies/hive";
 
 /// Builds the page into `folder`, or `web` in the target folder, and tests it as far as this machine can.
 pub fn run(words: &[&str]) -> Outcome {
@@ -48,7 +48,7 @@ fn build(folder: &Path) -> Result<(), String> {
         bind::bind(&target_folder()?.join(TARGET).join(PROFILE).join(file), name, folder)?;
     }
     copy_all(Path::new(PAGE), folder)?;
-    copy_all(Path::new(POLICIES), &folder.join("policies"))?;
+    copy_all(Path::new(POLICIES), &folder.join("policies/hive"))?;
     copy(Path::new("LICENSE"), &folder.join("LICENSE"))?;
     write(&folder.join("THIRD_PARTY.txt"), &notices::of("robohive-web-app", TARGET)?)?;
     write_made(folder)
