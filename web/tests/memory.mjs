@@ -3,11 +3,13 @@
 import assert from "node:assert/strict";
 import { serve, start, watched } from "./browser.mjs";
 
-/** How much more than after the first rounds the last one may take. */
-const GROWTH = 1.1;
+/** How much more than after the first rounds the last one may take. The engine's memory grows once by a tenth, in whichever round frames meet such
+ *  that its largest block fits in no gap; a leak of 1.2 percent a round is found. */
+const GROWTH = { engine: 1.2, heap: 1.1, nodes: 1.1 };
 
-/** Rounds until the memory has the size that the largest models side by side need, whichever frame they meet in. */
+/** Rounds until the memory has the size that the largest models side by side need, and rounds in all. */
 const FIRST = 3;
+const ROUNDS = 20;
 
 const [folder, , , , , seconds = "10"] = process.argv.slice(2);
 const host = await serve(folder);
@@ -43,7 +45,7 @@ async function round() {
 async function rounds(before) {
   const seen = [];
   const end = Date.now() + 500 * Number(seconds);
-  while (seen.length < 3 * FIRST || Date.now() < end) {
+  while (seen.length < ROUNDS || Date.now() < end) {
     await before();
     seen.push(await round());
   }
@@ -53,7 +55,7 @@ async function rounds(before) {
 function judge(where, { first, last, count }, what) {
   const shown = ({ engine, heap }) => `${(engine / 1e6).toFixed(1)} MB of the engine, ${(heap / 1e6).toFixed(1)} MB of the script`;
   console.log(`${where}: after ${FIRST} rounds ${shown(first)}; after ${count} rounds ${shown(last)}`);
-  for (const name of what) assert.ok(last[name] <= GROWTH * first[name] + 1e5, `${where}: ${name}: ${last[name]}, ${first[name]} at first`);
+  for (const name of what) assert.ok(last[name] <= GROWTH[name] * first[name] + 1e5, `${where}: ${name}: ${last[name]}, ${first[name]} at first`);
 }
 
 await load();
@@ -82,7 +84,7 @@ const grown = await inside(async (viewer) => {
   for (let k = 0; k < 8; k++) all();
   return [before, all()];
 });
-assert.ok(grown[1] <= GROWTH * grown[0], `the engine's memory: ${grown}`);
+assert.equal(grown[1], grown[0], "the engine's memory, where no frame comes in between");
 await finish();
 await browser.close();
 host.close();
