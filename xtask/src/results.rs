@@ -15,7 +15,7 @@ const FOLDER: &str = "validation/results";
 const MADE: &str = "Made from commit ";
 
 /// Tables that speak of other code than [`ENGINE`], with that code.
-const SPEAK_OF: [(&str, &[&str]); 30] = [
+const SPEAK_OF: [(&str, &[&str]); 32] = [
     ("bus_time", &["src/protocol", "src/wire", "src/hardware"]),
     ("controllers", &["src/physics", "mjcf", "src/robot", "src/env", "src/control", "assets"]),
     ("draws", &["src/random"]),
@@ -27,6 +27,7 @@ const SPEAK_OF: [(&str, &[&str]); 30] = [
     ("identify", &["src/physics", "mjcf", "src/identify"]),
     ("items", &["src/physics", "mjcf", "src/render/scene"]),
     ("laws", &["src/physics", "mjcf", "src/robot", "src/env", "assets"]),
+    ("learning_speed", &["src/physics", "src/env", "src/agents", "python"]),
     ("pictures", &["src/physics", "mjcf", "src/render"]),
     ("pictures_gpu", &["src/physics", "mjcf", "src/render", "src/render_gpu"]),
     ("planning", &["src/physics", "src/control", "assets"]),
@@ -38,6 +39,7 @@ const SPEAK_OF: [(&str, &[&str]); 30] = [
     ("robot_configs", &["src/physics", "src/env", "src/robot", "src/wire", "src/hardware"]),
     ("robots", &["assets"]),
     ("robots_speed", &["src/physics", "mjcf", "src/env", "assets"]),
+    ("shipped", &["src/physics", "mjcf", "src/env", "src/agents", "assets"]),
     ("standin", &["src/physics", "mjcf", "python"]),
     ("standin_dm_control", &["src/physics", "mjcf", "python"]),
     ("standin_myosuite", &["src/physics", "mjcf", "python"]),
