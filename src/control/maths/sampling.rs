@@ -7,6 +7,7 @@
 use super::NoSolution;
 use physics::{Batch, Data, Model, Snapshot, step};
 use random::Generator;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Smallest deviation of the cross-entropy method, as a share of that at the beginning.
 const LEAST: f64 = 0.1;
@@ -73,7 +74,6 @@ impl Sampler {
     /// # Errors
     /// Controls without a range; sizes that make no search; threads that cannot be started.
     pub fn new(model: &Model, settings: Settings) -> Result<Self, NoSolution> {
-        let wrong = |message: String| NoSolution::new("sampling", message);
         if settings.knots < 2 || settings.samples < 2 || settings.steps < 1 {
             return Err(wrong("a search has 2 knots, 2 samples and 1 step at least".into()));
         }
@@ -120,11 +120,12 @@ impl Sampler {
         each.collect::<Vec<_>>().repeat(self.settings.knots)
     }
 
-    /// Improves the plan once from a state. `cost` is asked after every time step of every sample, and its sum is what the sample
-    /// costs; a sample that physics refuses costs infinitely much. Returns the least cost.
+    /// Improves the plan once from a state. `cost`, which is not negative, is asked after every time step of every sample, and its sum is
+    /// what the sample costs; a sample that physics refuses costs infinitely much. Predictive sampling ends a sample as soon as it costs more
+    /// than another one does in all, since it cannot be the best. Returns the least cost.
     ///
     /// # Errors
-    /// A state of another model; every sample was refused.
+    /// A state of another model; a negative cost; every sample was refused.
     pub fn improve(
         &mut self,
         state: &Snapshot,
@@ -132,20 +133,27 @@ impl Sampler {
     ) -> Result<f64, NoSolution> {
         self.draw();
         let (steps, knots, bounds) = (self.settings.steps, self.settings.knots, &self.bounds);
+        // Whichever samples are over first, the best is never ended early. Bits of numbers that are not negative have their order.
+        let least = AtomicU64::new(f64::INFINITY.to_bits());
+        let only_the_best_counts = self.settings.method == Method::Predictive;
         let simulated = self.batch.run(|env| {
-            env.data.restore(state).map_err(|error| NoSolution::new("sampling", error.to_string()))?;
+            env.data.restore(state).map_err(|error| wrong(error.to_string()))?;
             let Sample { plan, cost: sum } = env.payload;
             *sum = 0.0;
             for k in 0..steps {
                 interpolate(plan, knots, k as f64 / steps as f64, &mut env.data.state.ctrl[..bounds.len()]);
-                match step(env.model, env.data) {
-                    Ok(()) => *sum += cost(env.model, env.data),
-                    Err(_) => *sum = f64::INFINITY,
+                let more = step(env.model, env.data).map_or(f64::INFINITY, |()| cost(env.model, env.data));
+                if more < 0.0 {
+                    return Err(wrong(format!("a state costs {more}; costs are not negative")));
                 }
-                if !sum.is_finite() {
+                *sum += more;
+                if !(*sum <= f64::from_bits(least.load(Ordering::Relaxed)) && sum.is_finite()) {
                     *sum = f64::INFINITY;
-                    break;
+                    return Ok(());
                 }
+            }
+            if only_the_best_counts {
+                least.fetch_min(sum.to_bits(), Ordering::Relaxed);
             }
             Ok::<_, NoSolution>(())
         });
@@ -194,7 +202,7 @@ impl Sampler {
         order.sort_by(|&a, &b| samples[a].cost.total_cmp(&samples[b].cost));
         let least = samples[order[0]].cost;
         if !least.is_finite() {
-            return Err(NoSolution::new("sampling", "physics refuses every sample"));
+            return Err(wrong("physics refuses every sample".into()));
         }
         let mean = |weights: &[(usize, f64)], value: &dyn Fn(usize) -> f64| {
             let sum: f64 = weights.iter().map(|(_, weight)| weight).sum();
@@ -220,6 +228,10 @@ impl Sampler {
         self.plan = moved;
         Ok(least)
     }
+}
+
+fn wrong(message: String) -> NoSolution {
+    NoSolution::new("sampling", message)
 }
 
 /// Writes the controls of a plan at a share of its length; before its beginning and after its end it stays what it is there.
@@ -290,6 +302,43 @@ mod tests {
     fn threads_change_no_bit() {
         let method = Method::CrossEntropy { elites: 4 };
         assert_eq!(swing(method, 1), swing(method, 3));
+    }
+
+    #[test]
+    fn samples_end_once_they_cannot_be_the_best() {
+        let model = mjcf::load_str(PENDULUM).unwrap().model;
+        let (data, mut state) = (Data::new(&model), Snapshot::default());
+        data.save(&mut state);
+        let improved = |method| {
+            let settings =
+                Settings { method, samples: 24, steps: 200, knots: 10, noise: 0.5, threads: 1, seed: 5 };
+            let (mut sampler, asked) = (Sampler::new(&model, settings).unwrap(), AtomicU64::new(0));
+            // To swing costs: the plan to do nothing, which is simulated first, costs least.
+            let counted = |_: &Model, data: &Data| {
+                asked.fetch_add(1, Ordering::Relaxed);
+                data.state.qvel[0].abs()
+            };
+            let least = sampler.improve(&state, counted).unwrap();
+            (sampler.plan, least, asked.into_inner())
+        };
+        // One elite is the best sample, too, but all samples are simulated to their ends.
+        let (plan, least, all) = improved(Method::CrossEntropy { elites: 1 });
+        let (same, cost, some) = improved(Method::Predictive);
+        assert_eq!((same, cost), (plan, least));
+        // One whole sample, and the first step of 23.
+        assert_eq!((all, some), (24 * 200, 200 + 23));
+    }
+
+    #[test]
+    fn negative_costs_are_refused() {
+        let model = mjcf::load_str(PENDULUM).unwrap().model;
+        let method = Method::Predictive;
+        let settings = Settings { method, samples: 8, steps: 10, knots: 3, noise: 0.5, threads: 1, seed: 0 };
+        let (data, mut state) = (Data::new(&model), Snapshot::default());
+        data.save(&mut state);
+        let error =
+            Sampler::new(&model, settings).unwrap().improve(&state, |_, _| -1.0).unwrap_err().to_string();
+        assert_eq!(error, "sampling: a state costs -1; costs are not negative");
     }
 
     #[test]

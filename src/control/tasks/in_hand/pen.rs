@@ -10,9 +10,9 @@ use physics::elements::SiteId;
 use physics::math::{dot, norm, sub};
 
 const SIZES: Sizes = Sizes { samples: 40, horizon: 0.3, step: 0.01, every: 0.01, knots: 5, noise: 0.4 };
-/// Cosine of the angle beyond which the pen points as it is to, and what that is worth.
+/// Cosine of the angle beyond which the pen points as it is to, and what it costs that it does not.
 const ALIGNED: f64 = 0.955;
-const BONUS: f64 = 2.0;
+const ASKEW: f64 = 2.0;
 /// Cost of a squared distance from its place \[1/m²\].
 const PLACE: f64 = 5.0;
 /// Height below which the pen is about to be lost \[m\], and its cost.
@@ -58,7 +58,7 @@ impl Controller for Pen {
             let middle = [0, 1, 2].map(|i| 0.5 * (top[i] + bottom[i]));
             let away = norm(sub(middle, at(place)));
             let lost = LOSS * f64::from(middle[2] < LOW);
-            1.0 - cosine - BONUS * f64::from(cosine > ALIGNED) + PLACE * away * away + lost
+            (1.0 - cosine).max(0.0) + ASKEW * f64::from(cosine <= ALIGNED) + PLACE * away * away + lost
         };
         self.search.act(env, cost, action)
     }
