@@ -54,18 +54,19 @@ fn ropes_keep_their_length_and_stay_on_the_table() {
 /// Nodes stay over the table, and none of the sponge's upright edges of 60 mm is stretched by more than a tenth or pressed to less than half.
 #[test]
 fn a_sponge_is_pressed_and_not_torn() {
-    let id = "hive/SpongePress-v0";
-    let press = |each: fn(&env::Env)| watch(id, 3, true, each);
-    let (solved, actions) = press(|env| {
-        let nodes = env.rows()["sponge"].as_chunks::<3>().0;
-        assert_eq!(nodes.len(), 8);
-        let heights = nodes.iter().map(|node| node[2] - TABLE);
-        let (low, high) = (heights.clone().fold(f64::INFINITY, f64::min), heights.fold(0.0, f64::max));
-        assert!(low > -0.001 && (0.03..0.066).contains(&(high - low)), "{low} {high}");
-    });
-    assert!(solved, "{id} is not solved");
-    assert!(!play(id, 3, false).0, "{id} is solved by zero actions");
-    assert!(actions == press(|_| ()).1, "{id} acts otherwise in the same episode");
+    for id in ["hive/SpongePress-v0", "hive/AdroitSpongePress-v0"] {
+        let press = |each: fn(&env::Env)| watch(id, 3, true, each);
+        let (solved, actions) = press(|env| {
+            let nodes = env.rows()["sponge"].as_chunks::<3>().0;
+            assert_eq!(nodes.len(), 8);
+            let heights = nodes.iter().map(|node| node[2] - TABLE);
+            let (low, high) = (heights.clone().fold(f64::INFINITY, f64::min), heights.fold(0.0, f64::max));
+            assert!(low > -0.001 && (0.03..0.066).contains(&(high - low)), "{low} {high}");
+        });
+        assert!(solved, "{id} is not solved");
+        assert!(!play(id, 3, false).0, "{id} is solved by zero actions");
+        assert!(actions == press(|_| ()).1, "{id} acts otherwise in the same episode");
+    }
 }
 
 /// Marks go, and do not come back, only in states in which the sponge presses by 4 N, never by more than 40 N. An environment that goes on from a

@@ -74,8 +74,11 @@ impl Arm {
         let posture = of_arm(env.spec(), "pose").unwrap_or_else(|| "home".into());
         body.pose(&posture, &mut home).map_err(told)?;
         let (root, tool) = (body.root().map_err(told)?, body.tool().map_err(told)?);
+        // A wrist that its roles count among the fingers stays with them.
+        let of_hand = body.joints_of("open").map_err(told)?;
         let link = |joint| servo_of(m, joint).map(|(control, servo)| Link { joint, servo, control });
-        let links: Vec<Link> = between(m, root, tool).into_iter().filter_map(link).collect();
+        let of_arm = between(m, root, tool).into_iter().filter(|joint| !of_hand.contains(joint));
+        let links: Vec<Link> = of_arm.filter_map(link).collect();
         let joints: Vec<JointId> = links.iter().map(|link| link.joint).collect();
         let hand = Hand::new(env, &roles, &body, &joints)?;
         Ok(Arm { hand, correction: vec![0.0; links.len()], links, joints, home })
