@@ -3,7 +3,9 @@
 
 mod playing;
 
-use env::Registry;
+use env::{Env, Options, OwnModels, Registry};
+use physics::Data;
+use physics::position::kinematics::kinematics;
 use playing::{play, watch};
 
 /// Height of the table's top \[m\].
@@ -66,6 +68,34 @@ fn a_sponge_is_pressed_and_not_torn() {
         assert!(solved, "{id} is not solved");
         assert!(!play(id, 3, false).0, "{id} is solved by zero actions");
         assert!(actions == press(|_| ()).1, "{id} acts otherwise in the same episode");
+    }
+}
+
+/// Gap between the tips of the thumb and of two fingers, in the mean, and between the heights of their lowest points, of the Adroit hand as a gripper \[m\]: what
+/// `assets/adroit/README.md` says.
+#[test]
+fn thumb_and_fingers_open_and_close_level() {
+    let env = Env::make("hive/AdroitSpongePress-v0", &OwnModels, &Options::default()).unwrap();
+    let m = &env.scene().model;
+    let roles =
+        robot::Roles::from_toml(assets::text("adroit/pinch.toml").unwrap(), "adroit/pinch.toml").unwrap();
+    for (pose, expected) in [("open", 0.05), ("closed", -0.02)] {
+        let mut data = Data::new(m);
+        roles.cast(m, "", "pinch").pose(pose, &mut data.state.qpos).unwrap();
+        kinematics(m, &data.state, &mut data.kin);
+        // The lower end of a capsule, and its radius: the palm looks down, and fingers close along y.
+        let [thumb, fore, middle] = ["C_thdistal", "C_ffdistal", "C_mfdistal"].map(|name| {
+            let geom = m.geom(name).unwrap().index();
+            let [radius, half, _] = m.geom_size[geom];
+            let (place, turn) = (data.kin.geom_xpos[geom], data.kin.geom_xmat[geom]);
+            let down = -half * turn[8].signum();
+            [place[1] + down * turn[5], place[2] + down * turn[8] - radius, radius]
+        });
+        let gap = 0.5 * (fore[0] + middle[0]) - thumb[0] - fore[2] - thumb[2];
+        assert!((gap - expected).abs() < 0.001, "{pose}: {gap}");
+        for finger in [fore, middle] {
+            assert!((finger[1] - thumb[1]).abs() < 0.005, "{pose}: {finger:?} {thumb:?}");
+        }
     }
 }
 
