@@ -77,8 +77,11 @@ fn a_sponge_is_pressed_and_not_torn() {
 fn thumb_and_fingers_open_and_close_level() {
     let env = Env::make("hive/AdroitSpongePress-v0", &OwnModels, &Options::default()).unwrap();
     let m = &env.scene().model;
-    let roles =
-        robot::Roles::from_toml(assets::text("adroit/pinch.toml").unwrap(), "adroit/pinch.toml").unwrap();
+    let roles = robot::Roles::from_toml(
+        assets::text("deformable/adroit/roles.toml").unwrap(),
+        "deformable/adroit/roles.toml",
+    )
+    .unwrap();
     for (pose, expected) in [("open", 0.05), ("closed", -0.02)] {
         let mut data = Data::new(m);
         roles.cast(m, "", "pinch").pose(pose, &mut data.state.qpos).unwrap();
@@ -203,6 +206,28 @@ fn cloths_are_handled_and_keep_their_shape() {
         assert!(solved, "{id} is not solved");
         assert!(actions.iter().all(|value| (-1.0..=1.0).contains(value)), "{id}");
         assert!(!play(id, 2, false).0, "{id} is solved by zero actions");
+    }
+}
+
+/// The Adroit hand does with a post what the Panda does with rope and rod themselves, and lifts the post of a cloth by more than its height.
+#[test]
+fn thumb_and_fingers_take_a_post() {
+    for (id, lifted) in [
+        ("hive/AdroitRopeStraighten-v0", 0.0),
+        ("hive/AdroitClothFold-v0", 0.04),
+        ("hive/AdroitClothSpread-v0", 0.04),
+    ] {
+        let (mut first, mut highest) = (None, f64::NEG_INFINITY);
+        let (solved, actions) = watch(id, 2, true, |env| {
+            let scene = env.scene();
+            let height = scene.data.geom(scene.model.geom("handle").unwrap()).xpos()[2];
+            first = first.or(Some(height));
+            highest = highest.max(height);
+        });
+        assert!(solved, "{id} is not solved");
+        assert!(actions.iter().all(|value| (-1.0..=1.0).contains(value)), "{id}");
+        let rise = highest - first.unwrap();
+        assert!(rise >= lifted, "{id}: the post rises by {rise} m");
     }
 }
 

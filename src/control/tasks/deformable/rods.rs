@@ -6,7 +6,7 @@ use crate::tasks::arms::frame::Frame;
 use crate::tasks::arms::grasp::{Carry, Grasp, Load, from_above};
 use crate::tasks::arms::moves::Move;
 use env::Env;
-use physics::elements::{BodyId, SiteId};
+use physics::elements::{BodyId, GeomId, SiteId};
 use physics::math::{Vec3, distance, sub};
 
 /// How far over the middle of the rod fingers would be clear of it, which they are to reach below \[m\].
@@ -22,21 +22,28 @@ const CARRY: (f64, f64) = (0.5, 0.3);
 pub struct Rods {
     bodies: [BodyId; 2],
     handle: SiteId,
+    /// Width of what is held \[m\].
     width: f64,
+    /// How far over the middle of that fingers would be clear of what it lies on \[m\].
+    below: f64,
     /// How far the rod that is carried is.
     carried: Option<Grasp>,
 }
 
 impl Rods {
-    /// The bodies `rod_0` and `rod_1` and the site `handle` of the environment.
+    /// The bodies `rod_0` and `rod_1` of the environment, and the site `handle`, on the first rod or in the geom `handle`, a post on it.
     ///
     /// # Errors
     /// It has none.
     pub fn new(env: &Env) -> Result<Self, ControlError> {
         let scene = env.scene();
-        let width = 2.0 * scene.model.geom_size[scene.geom("rod_0")?.index()][0];
+        let size = |geom: GeomId| scene.model.geom_size[geom.index()];
+        let (width, below) = match scene.model.geom("handle") {
+            Some(post) => (2.0 * size(post)[0], size(post)[2]),
+            None => (2.0 * size(scene.geom("rod_0")?)[0], BELOW),
+        };
         let bodies = [scene.body("rod_0")?, scene.body("rod_1")?];
-        Ok(Rods { bodies, handle: scene.site("handle")?, width, carried: None })
+        Ok(Rods { bodies, handle: scene.site("handle")?, width, below, carried: None })
     }
 
     /// Where they are; each lies along the y axis of its frame.
@@ -55,7 +62,7 @@ impl Rods {
     ) -> Option<Move> {
         let (rod, tool) = (self.frames(env)[0], arm.tool(env));
         let handle = Frame { place: Frame::of_site(&env.scene().data, self.handle).place, turn: rod.turn };
-        let grasps = || from_above(arm, &handle, self.width, BELOW, false);
+        let grasps = || from_above(arm, &handle, self.width, self.below, false);
         let carry = |step| {
             let to = vec![tool.moved(sub(way(step)?, rod.place))];
             Some(Carry { to, speed: CARRY.0, pause: CARRY.1 })

@@ -1,7 +1,7 @@
 //! Wrapping a rope round a peg: its loose end is grasped and led round the peg in short straight motions, nearer as less of it is free; over
 //! the part that comes from the post it is lifted, and beyond it let go of.
 
-use super::strand::{Strand, down};
+use super::strand::Strand;
 use crate::error::ControlError;
 use crate::tasks::arms::arm::Arm;
 use crate::tasks::arms::moves::{Move, Script};
@@ -65,16 +65,16 @@ impl Script for RopeWrap {
         };
         // The fingers open across the rope, which points away from the peg, and the wrist turns with it from one end of its range.
         let closing = |angle: f64| grip.along - FRAC_PI_2 + angle;
-        let mut plan = self.strand.grasp(arm, &grip, closing(0.0));
+        let (mut plan, open) = (self.strand.grasp(arm, &grip, closing(0.0)), self.strand.opening(arm));
         let count = (round / STEP.0).ceil();
         for k in 1..=count as usize {
             let angle = round * k as f64 / count;
-            plan.push(Move::precise(down(arm, at(angle), closing(angle)), 0.0, STEP.1, 0.0));
+            plan.push(Move::precise(self.strand.down(arm, at(angle), closing(angle)), 0.0, STEP.1, 0.0));
         }
-        let last = down(arm, add(at(round), [0.0, 0.0, -LOW / 2.0]), closing(round));
+        let last = self.strand.down(arm, add(at(round), [0.0, 0.0, -LOW / 2.0]), closing(round));
         plan.push(Move::precise(last, 0.0, 0.5, 0.2));
-        plan.push(Move::precise(last, Strand::OPEN, 0.5, 0.4));
-        plan.push(Move::precise(last.moved([0.0, 0.0, AWAY]), Strand::OPEN, 0.5, 0.0));
+        plan.push(Move::precise(last, open, 0.5, 0.4));
+        plan.push(Move::precise(last.moved([0.0, 0.0, AWAY]), open, 0.5, 0.0));
         self.plan = plan.into_iter();
         Ok(())
     }

@@ -5,22 +5,26 @@ use crate::tasks::arms::arm::Arm;
 use crate::tasks::arms::frame::Frame;
 use crate::tasks::arms::moves::Move;
 use env::Env;
-use physics::elements::{BodyId, SiteId};
+use physics::elements::{BodyId, GeomId, SiteId};
 use physics::math::{Vec3, add, norm, ops, scale, sub};
+use std::f64::consts::FRAC_PI_2;
 
 /// How far over the rope the hand comes \[m\].
 const ABOVE: f64 = 0.08;
 /// How far over the middle of the rope the fingertips hold it \[m\].
 const OVER: f64 = 0.005;
-/// Width of the rope \[m\].
-const WIDTH: f64 = 0.01;
+/// Gap on each side between the rope and fingers that are about to take it \[m\].
+const ROOM: f64 = 0.014;
 /// Which link is held, from the loose end: the fingers are to have rope on both sides.
 const HELD: usize = 2;
 
-/// A rope of links `rope_0` … that ends at the site `rope_end`.
+/// A rope of links `rope_0` … that ends at the site `rope_end`, where it may have the geom `handle`, a post to take it by.
 pub struct Strand {
     links: Vec<BodyId>,
     end: SiteId,
+    handle: Option<GeomId>,
+    /// Width of what is held \[m\].
+    width: f64,
 }
 
 /// Where a rope can be held.
@@ -38,9 +42,6 @@ pub struct Grip {
 }
 
 impl Strand {
-    /// Opening of the gripper around the rope, 0 to 1.
-    pub const OPEN: f64 = 0.5;
-
     /// The rope of an environment.
     ///
     /// # Errors
@@ -51,7 +52,11 @@ impl Strand {
         if links.len() <= HELD {
             return Err(ControlError::unfit(env, "the scene has no rope"));
         }
-        Ok(Strand { links, end: scene.site("rope_end")? })
+        let (m, end) = (&scene.model, scene.site("rope_end")?);
+        let handle = m.geom("handle");
+        let held = handle.or_else(|| m.body(links[links.len() - 1]).geoms().next());
+        let held = held.ok_or_else(|| ControlError::unfit(env, "the last link of the rope has no geom"))?;
+        Ok(Strand { links, end, handle, width: 2.0 * m.geom_size[held.index()][0] })
     }
 
     /// Where it is held near its loose end.
@@ -60,34 +65,49 @@ impl Strand {
         let place = |k: usize| *data.body(self.links[k]).xpos();
         let held = self.links.len() - HELD;
         let (begins, ends) = (place(held), place(held + 1));
-        let link = sub(ends, begins);
+        let (link, end) = (sub(ends, begins), *data.site(self.end).xpos());
+        // All links are as long as this one.
+        let (place_held, links) = match self.handle {
+            Some(handle) => (*data.geom(handle).xpos(), self.links.len() as f64),
+            None => (add(scale(add(begins, ends), 0.5), [0.0, 0.0, OVER]), held as f64 + 0.5),
+        };
         Grip {
             first: place(0),
-            end: *data.site(self.end).xpos(),
-            place: add(scale(add(begins, ends), 0.5), [0.0, 0.0, OVER]),
+            end,
+            place: place_held,
             along: ops::atan2(link[1], link[0]),
-            // All links are as long as this one, which is held in its middle.
-            length: norm(link) * (held as f64 + 0.5),
+            length: norm(link) * links,
         }
+    }
+
+    /// Angle from the direction of the rope to that in which fingers close that are to pull it: across it, or along it where they take hold of a
+    /// post, of which then one side pulls \[rad\].
+    pub fn closing(&self) -> f64 {
+        if self.handle.is_some() { 0.0 } else { FRAC_PI_2 }
+    }
+
+    /// Opening of the hand's fingers around what is held, 0 to 1.
+    pub fn opening(&self, arm: &Arm) -> f64 {
+        arm.hand.opening(self.width + 2.0 * ROOM)
+    }
+
+    /// The tool with its fingertips at a place, the hand pointing down and fingers that close along the direction at `angle` in the plane of the
+    /// table \[rad\].
+    pub fn down(&self, arm: &Arm, place: Vec3, angle: f64) -> Frame {
+        let (sine, cosine) = ops::sincos(angle);
+        arm.hand.around(place, self.width, [0.0, 0.0, -1.0], [cosine, sine, 0.0])
     }
 
     /// Moves that take it, with fingers that close along the direction at `angle` in the plane of the table \[rad\].
     pub fn grasp(&self, arm: &Arm, grip: &Grip, angle: f64) -> Vec<Move> {
-        let hold = down(arm, grip.place, angle);
+        let (hold, open) = (self.down(arm, grip.place, angle), self.opening(arm));
         let above = hold.moved([0.0, 0.0, ABOVE]);
         let towards =
             |to, opening, speed, pause| Move { straight: false, ..Move::precise(to, opening, speed, pause) };
         vec![
-            towards(above, Self::OPEN, 1.0, 0.2),
-            Move::precise(hold, Self::OPEN, 0.25, 0.4),
+            towards(above, open, 1.0, 0.2),
+            Move::precise(hold, open, 0.25, 0.4),
             Move::precise(hold, 0.0, 1.0, 0.4),
         ]
     }
-}
-
-/// The tool with its fingertips at a place, the hand pointing down and fingers that close along the direction at `angle` in the plane of the
-/// table \[rad\].
-pub fn down(arm: &Arm, place: Vec3, angle: f64) -> Frame {
-    let (sine, cosine) = ops::sincos(angle);
-    arm.hand.around(place, WIDTH, [0.0, 0.0, -1.0], [cosine, sine, 0.0])
 }
