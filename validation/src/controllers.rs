@@ -1,11 +1,12 @@
 //! Tasks and the controllers that solve them, beside actions that are zero or random: successes on the same seeds, and the speed of the
 //! environments.
 
+use crate::by_id;
 use crate::own_ids::own_ids;
 use agents::Policy;
 use control::{Controller, Entry};
 use env::episode::{Summary, evaluate};
-use env::{Env, Options, OwnModels, Registry};
+use env::{Env, Options, OwnModels};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -175,26 +176,14 @@ pub fn render(rows: &[Row]) -> (String, Result<(), String>) {
     (table, verdict)
 }
 
-/// A written text of tables in which the rows and reasons of `newer` replace or join those of `older`, in the order of the registry.
+/// A written text of tables in which the rows and reasons of `newer` replace or join those of `older`.
 pub fn joined(older: &str, newer: &str) -> String {
     let [older, newer]: [Vec<&str>; 2] = [older, newer].map(|text| text.trim().split("\n\n").collect());
-    let tables = (0..TABLES).map(|k| {
-        let [kept, measured] =
-            [&older, &newer].map(|text| text.get(k).map_or(Vec::new(), |table| rows_of(table)));
-        let head = newer.get(k).map_or("", |table| table).lines().take(2);
-        let row = |id: &str| measured.iter().chain(&kept).find(|(of, _)| *of == id).map(|(_, line)| *line);
-        let specs = Registry::builtin().specs().iter();
-        head.chain(specs.filter_map(|spec| row(&spec.id))).collect::<Vec<_>>().join("\n")
-    });
+    let table = |text: &[&'_ str], k: usize| text.get(k).map_or("", |table| *table).to_owned();
+    let tables = (0..TABLES).map(|k| by_id::joined(&table(&older, k), &table(&newer, k)));
     let reasons: BTreeSet<_> = older.iter().skip(TABLES).chain(newer.iter().skip(TABLES)).collect();
     tables.chain(reasons.into_iter().map(|reason| (*reason).to_owned())).collect::<Vec<_>>().join("\n\n")
         + "\n"
-}
-
-/// Rows of a Markdown table, each with its first cell.
-fn rows_of(table: &str) -> Vec<(&str, &str)> {
-    let rows = table.lines().skip(2);
-    rows.filter_map(|line| Some((line.strip_prefix("| ")?.split(" |").next()?, line))).collect()
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 mod soft;
 mod things;
 
+use crate::by_id;
 use crate::own_ids::own_ids;
 use agents::Policy;
 use env::{Env, Options, OwnModels, Spec};
@@ -17,14 +18,17 @@ use things::Things;
 /// Episodes of each id where none are asked for.
 pub const EPISODES: u64 = 200;
 
+const HEAD: &str = "\
+| id | episodes | steps | ended by physics | resets, bad controls | steps with NaN | ends with a body lost, of free bodies | longest edge, of its rest | vertices inside the table, most | edges through the cloth, most | rope, of its rest | holds |
+|---|---|---|---|---|---|---|---|---|---|---|---|
+";
+
 /// What the episodes of an id come to.
 #[derive(Clone, Debug, Default)]
 pub struct Row {
     /// The id.
     pub id: String,
-    /// The suite.
-    pub suite: String,
-    /// Episodes, and steps of the environment in all of them.
+    /// Episodes.
     pub episodes: u64,
     /// Steps of the environment.
     pub steps: usize,
@@ -44,7 +48,7 @@ pub struct Row {
 
 impl Row {
     fn holds(&self) -> bool {
-        let whole = self.soft.as_ref().is_none_or(|soft| soft.through == 0);
+        let whole = self.soft.as_ref().is_none_or(Soft::is_whole);
         self.unstable + self.warnings + self.not_finite + self.lost == 0 && whole
     }
 }
@@ -83,7 +87,7 @@ pub fn measure(suite: &str, only: &str, episodes: u64, threads: usize) -> Result
 fn row(spec: &Spec, episodes: u64) -> Result<Row, String> {
     let said = |error: &dyn std::fmt::Display| error.to_string();
     let mut env = Env::make(&spec.id, &OwnModels, &Options::default()).map_err(|error| said(&error))?;
-    let mut row = Row { id: spec.id.clone(), suite: spec.suite.clone(), episodes, ..Row::default() };
+    let mut row = Row { id: spec.id.clone(), episodes, ..Row::default() };
     let mut action = vec![0.0; env.action_len()];
     let policy = Policy::random(0);
     for seed in 0..episodes {
@@ -117,46 +121,57 @@ fn warnings(env: &Env) -> usize {
     warnings.resets() + warnings.bad_ctrl.count
 }
 
-/// The tables, and whether every episode keeps the laws.
+/// The table, and whether every episode keeps the laws.
 pub fn render(rows: &[Row]) -> (String, Result<(), String>) {
-    let mut table = String::from(
-        "| suite | ids | episodes | steps | ended by physics | resets, bad controls | steps with NaN | ends with a body lost |\n\
-         |---|---|---|---|---|---|---|---|\n",
-    );
-    let mut suites: BTreeMap<&str, Vec<&Row>> = BTreeMap::new();
-    rows.iter().for_each(|row| suites.entry(&row.suite).or_default().push(row));
-    for (suite, rows) in &suites {
-        let sum = |of: fn(&Row) -> usize| rows.iter().map(|row| of(row)).sum::<usize>();
-        let _ = writeln!(
+    let mut table = String::from(HEAD);
+    for row in rows {
+        let Row { id, episodes, steps, unstable, warnings, not_finite, bodies, lost, soft, .. } = row;
+        let _ = write!(
             table,
-            "| {suite} | {} | {} | {} | {} | {} | {} | {} |",
-            rows.len(),
-            sum(|row| row.episodes as usize),
-            sum(|row| row.steps),
-            sum(|row| row.unstable),
-            sum(|row| row.warnings),
-            sum(|row| row.not_finite),
-            sum(|row| row.lost),
+            "| {id} | {episodes} | {steps} | {unstable} | {warnings} | {not_finite} | {lost} of {bodies} "
         );
+        let soft = soft.clone().unwrap_or_default();
+        let ratio = |ratio: Option<f64>| ratio.map_or("-".to_owned(), |ratio| format!("{ratio:.4}"));
+        let (edge, rope) = (ratio(soft.stretch), ratio(soft.rope));
+        let holds = if row.holds() { "yes" } else { "no" };
+        let _ = writeln!(table, "| {edge} | {} | {} | {rope} | {holds} |", soft.through, soft.pierced);
     }
-    let soft: Vec<_> = rows.iter().filter_map(|row| Some((row, row.soft.as_ref()?))).collect();
-    if !soft.is_empty() {
-        table += "\n| id | longest edge, of its rest | vertices inside the table, most | rope, of its rest | free bodies |\n|---|---|---|---|---|\n";
-        for (row, soft) in soft {
-            let ratio = |ratio: Option<f64>| ratio.map_or("-".to_owned(), |ratio| format!("{ratio:.4}"));
-            let (edge, rope) = (ratio(soft.stretch), ratio(soft.rope));
-            let _ = writeln!(table, "| {} | {edge} | {} | {rope} | {} |", row.id, soft.through, row.bodies);
-        }
+    let broken: Vec<_> = rows.iter().filter(|row| !row.holds()).map(|row| row.id.as_str()).collect();
+    let verdict = if broken.is_empty() {
+        Ok(())
+    } else {
+        Err(format!("laws are broken in episodes of {}", broken.join(", ")))
+    };
+    (table, verdict)
+}
+
+/// A written table, with its sums, in which the rows of `newer` replace or join those of `older`.
+pub fn joined(older: &str, newer: &str) -> String {
+    let written = older.trim().split("\n\n").next().unwrap_or_default();
+    let table = by_id::joined(if written.starts_with(HEAD.trim()) { written } else { "" }, newer);
+    let rows: Vec<Vec<&str>> = table.lines().skip(2).map(|line| line.split(" | ").collect()).collect();
+    let sum = |column: usize| rows.iter().filter_map(|row| row.get(column)?.parse::<u64>().ok()).sum::<u64>();
+    let broken = rows.iter().filter(|row| row.last().is_some_and(|holds| *holds != "yes |")).count();
+    format!(
+        "{table}\n\n{} ids, {} episodes, {} steps; {broken} ids break a law.\n",
+        rows.len(),
+        sum(1),
+        sum(2)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_several_measurements_are_summed() {
+        let row = |id: &str, lost| Row { id: id.into(), episodes: 200, steps: 7, lost, ..Row::default() };
+        let table = |id: &str, lost| render(&[row(id, lost)]).0;
+        let first = joined("", &table("hive/FurutaPendulum-v0", 0));
+        let both = joined(&first, &table("hive/Acrobot-v0", 1));
+        assert!(both.ends_with("\n\n2 ids, 400 episodes, 14 steps; 1 ids break a law.\n"), "{both}");
+        assert_eq!(joined(&both, &table("hive/Acrobot-v0", 1)), both);
+        assert!(render(&[row("hive/Acrobot-v0", 1)]).1.is_err());
     }
-    let broken: Vec<_> = rows.iter().filter(|row| !row.holds()).collect();
-    if broken.is_empty() {
-        return (table, Ok(()));
-    }
-    table += "\n| id that breaks a law | ended by physics | resets, bad controls | steps with NaN | ends with a body lost |\n|---|---|---|---|---|\n";
-    for row in &broken {
-        let Row { id, unstable, warnings, not_finite, lost, .. } = row;
-        let _ = writeln!(table, "| {id} | {unstable} | {warnings} | {not_finite} | {lost} |");
-    }
-    let ids: Vec<_> = broken.iter().map(|row| row.id.as_str()).collect();
-    (table, Err(format!("laws are broken in episodes of {}", ids.join(", "))))
 }

@@ -60,7 +60,7 @@ not that of results/bits.md. That table needs RUSTFLAGS=\"--cfg system_math\"; w
 is another than that of the recorded MuJoCo.
 laws: measures laws of mechanics, on states of the own models and of those in the folder ROBOHIVE_REFERENCES. With --episodes or
 --suite it runs episodes of random actions instead, 200 unless --episodes says otherwise, of every id on a model of our own or of one
-suite, whose section --write replaces. It counts episodes that physics ended, NaN, bodies that were lost, and how far soft things were
+suite, whose section --write replaces; with --only of ids that contain TEXT, whose rows alone it replaces. It counts episodes that physics ended, NaN, bodies that were lost, and how far soft things were
 stretched; fails when a law is broken.
 robots: compares our own robots with the numbers that are published of them (published.toml of their folders); fails when one
 differs by more than 2 % or 0.02 rad without a reason.
@@ -231,13 +231,13 @@ fn measured<'a>(
 fn by_controllers(a: &Arguments) -> Result<(&str, String, Result<(), String>), String> {
     let (table, verdict) = controllers::render(&controllers::measure(&a.suite, &a.only)?);
     let section = if a.suite.is_empty() { "controllers" } else { &a.suite };
-    let table = match &a.write {
-        Some(path) if !a.only.is_empty() => {
-            controllers::joined(&section_of(path, &markers(section))?, &table)
-        }
-        _ => table,
-    };
+    let table = if a.only.is_empty() { table } else { controllers::joined(&written(a, section)?, &table) };
     Ok((section, table, verdict))
+}
+
+/// What the file that is written has in a section; nothing without `--write`.
+fn written(a: &Arguments, section: &str) -> Result<String, String> {
+    a.write.as_ref().map_or(Ok(String::new()), |path| section_of(path, &markers(section)))
 }
 
 /// What holds of own and recorded models; or of episodes, where those are asked for.
@@ -245,7 +245,9 @@ fn laws(a: &Arguments) -> Result<(&str, String, Result<(), String>), String> {
     if !a.suite.is_empty() || a.episodes.is_some() {
         let count = a.episodes.unwrap_or(episodes::EPISODES);
         let (table, verdict) = episodes::render(&episodes::measure(&a.suite, &a.only, count, a.threads)?);
-        return Ok((if a.suite.is_empty() { "episodes" } else { &a.suite }, table, verdict));
+        let section = if a.suite.is_empty() { "episodes" } else { &a.suite };
+        let older = if a.only.is_empty() { String::new() } else { written(a, section)? };
+        return Ok((section, episodes::joined(&older, &table), verdict));
     }
     let recorded = recorded().map_err(|e| e.to_string())?;
     let references: Vec<_> = recorded.into_iter().map(|(_, reference)| reference).collect();
