@@ -1,9 +1,11 @@
 //! Our own robots: published numbers, and roles that their models have.
 
+use env::{Env, Options, OwnModels, Registry, Spec};
 use physics::elements::{Element, JointId};
 use physics::{Data, Model, forward};
 use robohive_validation::robots;
 use robot::{Config, ConfigError, Roles};
+use std::collections::BTreeMap;
 
 fn load(path: &str) -> Model {
     mjcf::Loader::default().files(assets::Own).load(path).unwrap_or_else(|error| panic!("{error}")).model
@@ -41,9 +43,10 @@ fn roles_are_filled() {
     let robots = robots_with_roles();
     assert!(robots.len() >= 8, "{} robots", robots.len());
     for (folder, roles) in &robots {
-        for file in ["robot.xml", "scene.xml"] {
-            check(roles, &load(&format!("{folder}/{file}")))
-                .unwrap_or_else(|error| panic!("{error} ({file})"));
+        let models = models(folder);
+        assert!(!models.is_empty(), "{folder}/roles.toml is of no robot, and no id names it");
+        for (name, m) in &models {
+            check(roles, m).unwrap_or_else(|error| panic!("{error} ({name})"));
         }
         let Some(hardware) = &roles.hardware else { continue };
         let file = format!("{folder}/{hardware}");
@@ -51,6 +54,28 @@ fn roles_are_filled() {
             assets::text(&file).unwrap_or_else(|| panic!("{folder}/roles.toml names no file: {hardware}"));
         Config::from_toml(text, &file).unwrap_or_else(|error| panic!("{error}"));
     }
+}
+
+/// What is to fill the roles of a folder: the robot and the scene in it; or, of a robot that is built in the scenes of tasks alone, those of the ids that
+/// name its roles.
+fn models(folder: &str) -> Vec<(String, Model)> {
+    if assets::text(&format!("{folder}/robot.xml")).is_some() {
+        return ["robot.xml", "scene.xml"]
+            .map(|file| (file.into(), load(&format!("{folder}/{file}"))))
+            .into();
+    }
+    let named = |spec: &&Spec| {
+        let arm: Option<BTreeMap<String, String>> = spec.args.get("arm");
+        arm.is_some_and(|arm| {
+            arm.get("roles").is_some_and(|file| *file == format!("hive/{folder}/roles.toml"))
+        })
+    };
+    let made = |spec: &Spec| {
+        let env =
+            Env::make(&spec.id, &OwnModels, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+        (spec.id.clone(), env.scene().model.clone())
+    };
+    Registry::builtin().specs().iter().filter(named).map(made).collect()
 }
 
 fn check(roles: &Roles, m: &Model) -> Result<(), ConfigError> {

@@ -5,7 +5,7 @@ use env::Env;
 use physics::elements::BodyId;
 use physics::math::{cross, dot, norm, sub};
 
-/// Greatest length of an edge, as a multiple of its length at rest: constraints hold them, or the stiffness of a solid.
+/// Greatest length of an edge that constraints hold, as a multiple of its length at rest. Edges of an elastic solid have no such bound.
 const STRETCH: f64 = 1.1;
 /// Greatest length of a rope, as a multiple of its length at rest: joints hold it, to rounding.
 const ROPE: f64 = 1.0 + 1e-9;
@@ -22,6 +22,8 @@ pub struct Soft {
     /// Greatest length of a rope of links, as a multiple of its length at rest.
     pub rope: Option<f64>,
     edges: Vec<Edge>,
+    /// Whether constraints hold the edges.
+    held: bool,
     triangles: Vec<[usize; 3]>,
     links: Vec<BodyId>,
     rest: f64,
@@ -39,7 +41,8 @@ impl Soft {
     pub fn of(env: &Env) -> Option<Self> {
         let m = &env.scene().model;
         let links: Vec<_> = (0..).map_while(|k| m.body(&format!("rope_{k}"))).collect();
-        let mut soft = Soft { edges: edges(env), triangles: triangles(env), links, ..Soft::default() };
+        let held = m.flex_edgeequality.iter().all(|&held| held != 0);
+        let mut soft = Soft { edges: edges(env), held, triangles: triangles(env), links, ..Soft::default() };
         soft.rest = soft.length(env);
         (m.nflex > 0 || soft.links.len() > 1).then_some(soft)
     }
@@ -72,10 +75,10 @@ impl Soft {
         }
     }
 
-    /// No edge is longer than [`STRETCH`] allows, nothing went through the table or the cloth, and a rope kept its length.
+    /// No edge that constraints hold is longer than [`STRETCH`] allows, nothing went through the table or the cloth, and a rope kept its length.
     pub fn is_whole(&self) -> bool {
         let (edge, rope) = (self.stretch.unwrap_or(1.0), self.rope.unwrap_or(1.0));
-        edge <= STRETCH && rope <= ROPE && self.through + self.pierced == 0
+        (edge <= STRETCH || !self.held) && rope <= ROPE && self.through + self.pierced == 0
     }
 
     /// Edges that go through a triangle of which they have no vertex.
@@ -156,7 +159,7 @@ mod tests {
         (qpos[up], qpos[down]) = (0.1, -0.05);
         env.set_world(&world).unwrap();
         soft.look(&env);
-        assert!(soft.stretch.unwrap() > 1.3 && !soft.is_whole(), "{:?}", soft.stretch);
+        assert!(soft.stretch.unwrap() > 1.3, "{:?}", soft.stretch);
     }
 
     #[test]
@@ -178,5 +181,9 @@ mod tests {
         );
         vertices[17] = [middle[0], middle[1], middle[2] + 0.01];
         assert!(soft.piercing(&vertices) > 0);
+        soft.stretch = Some(1.09);
+        assert!(soft.is_whole());
+        soft.stretch = Some(1.11);
+        assert!(!soft.is_whole());
     }
 }
