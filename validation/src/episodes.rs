@@ -19,8 +19,8 @@ use things::Things;
 pub const EPISODES: u64 = 200;
 
 const HEAD: &str = "\
-| id | episodes | steps | ended by physics | resets, bad controls | steps with NaN | ends with a body lost, of free bodies | longest edge, of its rest | vertices inside the table, most | edges through the cloth, most | rope, of its rest | holds |
-|---|---|---|---|---|---|---|---|---|---|---|---|
+| id | episodes | steps | ended by physics | resets, bad controls | steps with NaN | ends with a body lost | free bodies | longest edge, of its rest | vertices inside the table, most | edges through the cloth, most | rope, of its rest | holds |
+|---|---|---|---|---|---|---|---|---|---|---|---|---|
 ";
 
 /// What the episodes of an id come to.
@@ -128,7 +128,7 @@ pub fn render(rows: &[Row]) -> (String, Result<(), String>) {
         let Row { id, episodes, steps, unstable, warnings, not_finite, bodies, lost, soft, .. } = row;
         let _ = write!(
             table,
-            "| {id} | {episodes} | {steps} | {unstable} | {warnings} | {not_finite} | {lost} of {bodies} "
+            "| {id} | {episodes} | {steps} | {unstable} | {warnings} | {not_finite} | {lost} | {bodies} "
         );
         let soft = soft.clone().unwrap_or_default();
         let ratio = |ratio: Option<f64>| ratio.map_or("-".to_owned(), |ratio| format!("{ratio:.4}"));
@@ -153,7 +153,7 @@ pub fn joined(older: &str, newer: &str) -> String {
     let sum = |column: usize| rows.iter().filter_map(|row| row.get(column)?.parse::<u64>().ok()).sum::<u64>();
     let broken = rows.iter().filter(|row| row.last().is_some_and(|holds| *holds != "yes |")).count();
     format!(
-        "{table}\n\n{} ids, {} episodes, {} steps; {broken} ids break a law.\n",
+        "{table}\n\n{} ids, {} episodes, {} steps; {broken} of the ids break a law.\n",
         rows.len(),
         sum(1),
         sum(2)
@@ -170,7 +170,7 @@ mod tests {
         let table = |id: &str, lost| render(&[row(id, lost)]).0;
         let first = joined("", &table("hive/FurutaPendulum-v0", 0));
         let both = joined(&first, &table("hive/Acrobot-v0", 1));
-        assert!(both.ends_with("\n\n2 ids, 400 episodes, 14 steps; 1 ids break a law.\n"), "{both}");
+        assert!(both.ends_with("\n\n2 ids, 400 episodes, 14 steps; 1 of the ids break a law.\n"), "{both}");
         assert_eq!(joined(&both, &table("hive/Acrobot-v0", 1)), both);
         assert!(render(&[row("hive/Acrobot-v0", 1)]).1.is_err());
     }
