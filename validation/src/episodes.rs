@@ -130,11 +130,9 @@ pub fn render(rows: &[Row]) -> (String, Result<(), String>) {
             table,
             "| {id} | {episodes} | {steps} | {unstable} | {warnings} | {not_finite} | {lost} | {bodies} "
         );
-        let soft = soft.clone().unwrap_or_default();
-        let ratio = |ratio: Option<f64>| ratio.map_or("-".to_owned(), |ratio| format!("{ratio:.4}"));
-        let (edge, rope) = (ratio(soft.stretch), ratio(soft.rope));
+        let [edge, through, pierced, rope] = soft.as_ref().map_or(["-"; 4].map(String::from), Soft::cells);
         let holds = if row.holds() { "yes" } else { "no" };
-        let _ = writeln!(table, "| {edge} | {} | {} | {rope} | {holds} |", soft.through, soft.pierced);
+        let _ = writeln!(table, "| {edge} | {through} | {pierced} | {rope} | {holds} |");
     }
     let broken: Vec<_> = rows.iter().filter(|row| !row.holds()).map(|row| row.id.as_str()).collect();
     let verdict = if broken.is_empty() {
@@ -145,10 +143,21 @@ pub fn render(rows: &[Row]) -> (String, Result<(), String>) {
     (table, verdict)
 }
 
-/// A written table, with its sums, in which the rows of `newer` replace or join those of `older`.
-pub fn joined(older: &str, newer: &str) -> String {
-    let written = older.trim().split("\n\n").next().unwrap_or_default();
-    let table = by_id::joined(if written.starts_with(HEAD.trim()) { written } else { "" }, newer);
+/// The table of a written section, whose rows can be kept.
+///
+/// # Errors
+/// It has other columns.
+pub fn kept(section: &str) -> Result<&str, String> {
+    let table = section.trim().split_once("\n\n").map_or(section.trim(), |(table, _)| table);
+    if table.is_empty() || table.starts_with(HEAD.trim()) {
+        return Ok(table);
+    }
+    Err("the written table has other columns: measure the suite without --only, which replaces it".into())
+}
+
+/// A table, with its sums, in which the rows of `newer` replace or join those that are `kept`.
+pub fn joined(kept: &str, newer: &str) -> String {
+    let table = by_id::joined(kept, newer);
     let rows: Vec<Vec<&str>> = table.lines().skip(2).map(|line| line.split(" | ").collect()).collect();
     let sum = |column: usize| rows.iter().filter_map(|row| row.get(column)?.parse::<u64>().ok()).sum::<u64>();
     let broken = rows.iter().filter(|row| row.last().is_some_and(|holds| *holds != "yes |")).count();
@@ -169,9 +178,10 @@ mod tests {
         let row = |id: &str, lost| Row { id: id.into(), episodes: 200, steps: 7, lost, ..Row::default() };
         let table = |id: &str, lost| render(&[row(id, lost)]).0;
         let first = joined("", &table("hive/FurutaPendulum-v0", 0));
-        let both = joined(&first, &table("hive/Acrobot-v0", 1));
+        let both = joined(kept(&first).unwrap(), &table("hive/Acrobot-v0", 1));
         assert!(both.ends_with("\n\n2 ids, 400 episodes, 14 steps; 1 of the ids break a law.\n"), "{both}");
-        assert_eq!(joined(&both, &table("hive/Acrobot-v0", 1)), both);
+        assert_eq!(joined(kept(&both).unwrap(), &table("hive/Acrobot-v0", 1)), both);
+        assert!(kept("| suite | ids |\n|---|---|\n| classical | 10 |\n").is_err());
         assert!(render(&[row("hive/Acrobot-v0", 1)]).1.is_err());
     }
 }

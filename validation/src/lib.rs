@@ -1,7 +1,7 @@
 //! Comparison of our physics and compiler with recorded MuJoCo runs.
 
 pub mod bits;
-pub mod by_id;
+mod by_id;
 pub mod c_library;
 pub mod collide;
 pub mod compare;

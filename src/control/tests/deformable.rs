@@ -209,14 +209,12 @@ fn cloths_are_handled_and_keep_their_shape() {
     }
 }
 
-/// The Adroit hand does with a post what the Panda does with rope and rod themselves, and lifts the post of a cloth by more than its height.
+/// The Adroit hand does with a post what the Panda does with rope and rod themselves. It lifts the post of a cloth by more than its height, and drags
+/// that of a rope, which stays within a quarter of its height of the table.
 #[test]
 fn thumb_and_fingers_take_a_post() {
-    for (id, lifted) in [
-        ("hive/AdroitRopeStraighten-v0", 0.0),
-        ("hive/AdroitClothFold-v0", 0.04),
-        ("hive/AdroitClothSpread-v0", 0.04),
-    ] {
+    let ids = ["hive/AdroitRopeStraighten-v0", "hive/AdroitClothFold-v0", "hive/AdroitClothSpread-v0"];
+    for (id, rise) in ids.into_iter().zip([-0.01..0.01, 0.04..0.2, 0.04..0.2]) {
         let (mut first, mut highest) = (None, f64::NEG_INFINITY);
         let (solved, actions) = watch(id, 2, true, |env| {
             let scene = env.scene();
@@ -226,8 +224,8 @@ fn thumb_and_fingers_take_a_post() {
         });
         assert!(solved, "{id} is not solved");
         assert!(actions.iter().all(|value| (-1.0..=1.0).contains(value)), "{id}");
-        let rise = highest - first.unwrap();
-        assert!(rise >= lifted, "{id}: the post rises by {rise} m");
+        let risen = highest - first.unwrap();
+        assert!(rise.contains(&risen), "{id}: the post rises by {risen} m");
     }
 }
 

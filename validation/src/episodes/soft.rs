@@ -15,6 +15,8 @@ const ROPE: f64 = 1.0 + 1e-9;
 pub struct Soft {
     /// Greatest length of an edge of a flex, as a multiple of its length at rest, or at the start where the model does not say it.
     pub stretch: Option<f64>,
+    /// The same of edges that constraints hold.
+    pub held: Option<f64>,
     /// Most vertices inside the table at once.
     pub through: usize,
     /// Most edges of a cloth that went through one of its triangles at once.
@@ -22,18 +24,17 @@ pub struct Soft {
     /// Greatest length of a rope of links, as a multiple of its length at rest.
     pub rope: Option<f64>,
     edges: Vec<Edge>,
-    /// Whether constraints hold the edges.
-    held: bool,
     triangles: Vec<[usize; 3]>,
     links: Vec<BodyId>,
     rest: f64,
 }
 
-/// An edge of a flex: its vertices among those of all flexes, and its length at rest \[m\].
+/// An edge of a flex: its vertices among those of all flexes, its length at rest \[m\], and whether constraints hold it.
 #[derive(Clone, Debug)]
 struct Edge {
     ends: [usize; 2],
     rest: f64,
+    held: bool,
 }
 
 impl Soft {
@@ -41,8 +42,7 @@ impl Soft {
     pub fn of(env: &Env) -> Option<Self> {
         let m = &env.scene().model;
         let links: Vec<_> = (0..).map_while(|k| m.body(&format!("rope_{k}"))).collect();
-        let held = m.flex_edgeequality.iter().all(|&held| held != 0);
-        let mut soft = Soft { edges: edges(env), held, triangles: triangles(env), links, ..Soft::default() };
+        let mut soft = Soft { edges: edges(env), triangles: triangles(env), links, ..Soft::default() };
         soft.rest = soft.length(env);
         (m.nflex > 0 || soft.links.len() > 1).then_some(soft)
     }
@@ -50,8 +50,11 @@ impl Soft {
     /// Takes in the current state.
     pub fn look(&mut self, env: &Env) {
         let data = &env.scene().data;
-        let ratios = self.edges.iter().map(|edge| length(env, edge.ends) / edge.rest);
-        self.stretch = self.stretch.into_iter().chain(ratios).reduce(f64::max);
+        for edge in &self.edges {
+            let ratio = Some(length(env, edge.ends) / edge.rest);
+            self.stretch = greatest(self.stretch, ratio);
+            self.held = greatest(self.held, ratio.filter(|_| edge.held));
+        }
         if let Some(table) = Table::of(env) {
             let inside = data.flex.flexvert_xpos.iter().filter(|&&vertex| table.holds(vertex)).count();
             self.through = self.through.max(inside);
@@ -65,9 +68,9 @@ impl Soft {
     /// Together with what was seen before.
     pub fn with(self, before: Option<Soft>) -> Soft {
         let Some(before) = before else { return self };
-        let greatest = |a: Option<f64>, b: Option<f64>| a.into_iter().chain(b).reduce(f64::max);
         Soft {
             stretch: greatest(self.stretch, before.stretch),
+            held: greatest(self.held, before.held),
             through: self.through.max(before.through),
             pierced: self.pierced.max(before.pierced),
             rope: greatest(self.rope, before.rope),
@@ -77,8 +80,17 @@ impl Soft {
 
     /// No edge that constraints hold is longer than [`STRETCH`] allows, nothing went through the table or the cloth, and a rope kept its length.
     pub fn is_whole(&self) -> bool {
-        let (edge, rope) = (self.stretch.unwrap_or(1.0), self.rope.unwrap_or(1.0));
-        (edge <= STRETCH || !self.held) && rope <= ROPE && self.through + self.pierced == 0
+        let (edge, rope) = (self.held.unwrap_or(1.0), self.rope.unwrap_or(1.0));
+        edge <= STRETCH && rope <= ROPE && self.through + self.pierced == 0
+    }
+
+    /// Longest edge, vertices inside the table, edges through the cloth, length of the rope; `-` of what the model has not.
+    pub fn cells(&self) -> [String; 4] {
+        let ratio = |ratio: Option<f64>| ratio.map(|ratio| format!("{ratio:.4}"));
+        let vertices = self.stretch.map(|_| self.through.to_string());
+        let cloth = (!self.triangles.is_empty()).then(|| self.pierced.to_string());
+        [ratio(self.stretch), vertices, cloth, ratio(self.rope)]
+            .map(|cell| cell.unwrap_or_else(|| "-".into()))
     }
 
     /// Edges that go through a triangle of which they have no vertex.
@@ -99,6 +111,10 @@ impl Soft {
     }
 }
 
+fn greatest(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    a.into_iter().chain(b).reduce(f64::max)
+}
+
 fn edges(env: &Env) -> Vec<Edge> {
     let m = &env.scene().model;
     let all = (0..m.nflex).flat_map(|flex| {
@@ -108,7 +124,8 @@ fn edges(env: &Env) -> Vec<Edge> {
     let edge = |(flex, edge): (usize, usize)| {
         let ends = m.flex_edge[edge].map(|vertex| (m.flex_vertadr[flex] + vertex) as usize);
         let rest = Some(m.flexedge_length0[edge]).filter(|&rest| rest > 0.0);
-        Edge { ends, rest: rest.unwrap_or_else(|| length(env, ends)) }
+        let held = m.flex_edgeequality[flex] != 0;
+        Edge { ends, rest: rest.unwrap_or_else(|| length(env, ends)), held }
     };
     all.filter(|&(_, edge)| !m.flexedge_rigid[edge]).map(edge).collect()
 }
@@ -159,7 +176,8 @@ mod tests {
         (qpos[up], qpos[down]) = (0.1, -0.05);
         env.set_world(&world).unwrap();
         soft.look(&env);
-        assert!(soft.stretch.unwrap() > 1.3, "{:?}", soft.stretch);
+        assert!(soft.stretch.unwrap() > 1.3 && soft.held.is_none(), "{:?}", soft.stretch);
+        assert!(soft.cells()[2..] == ["-", "-"], "{:?}", soft.cells());
     }
 
     #[test]
@@ -181,9 +199,10 @@ mod tests {
         );
         vertices[17] = [middle[0], middle[1], middle[2] + 0.01];
         assert!(soft.piercing(&vertices) > 0);
-        soft.stretch = Some(1.09);
+        assert!(soft.edges.iter().all(|edge| edge.held), "constraints hold the edges of the cloth");
+        soft.held = Some(1.09);
         assert!(soft.is_whole());
-        soft.stretch = Some(1.11);
+        soft.held = Some(1.11);
         assert!(!soft.is_whole());
     }
 }
