@@ -85,22 +85,25 @@ impl Cloth {
     }
 
     /// Lays it in the shape to which `shaped` takes its points from where they lie flat, as seen from the middle \[m\], turned by `turn` \[rad\]
-    /// and moved by `x` and `y` \[m\]; its rods stay level.
-    pub fn lay(&self, pose: &mut Pose, [x, y, turn]: [f64; 3], shaped: impl Fn(Vec3) -> Vec3) {
+    /// and moved by `x` and `y` \[m\]; its rods stay level. Returns where the middles of their seams are then, that with the handle first \[m\].
+    pub fn lay(&self, pose: &mut Pose, [x, y, turn]: [f64; 3], shaped: impl Fn(Vec3) -> Vec3) -> [Vec3; 2] {
         let (middle, turn) = (self.flat[self.flat.len() / 2], quat_from_axis_angle([0.0, 0.0, 1.0], turn));
         let moved = |place: Vec3| add(quat_rotate(turn, shaped(place)), [x, y, 0.0]);
         let ways: Vec<Vec3> =
             self.flat.iter().map(|&place| sub(add(middle, moved(sub(place, middle))), place)).collect();
         let mut slide = |joint: usize, way: Vec3| (0..3).for_each(|i| pose.qpos[joint + i] += way[i]);
         self.joints.iter().zip(&ways).for_each(|(&joint, &way)| slide(joint, way));
-        let ends = self.corners().map(|corner| add(self.flat[corner], ways[corner]));
-        for ((_, joint), [a, b]) in self.rods.iter().zip([[ends[0], ends[1]], [ends[2], ends[3]]]) {
-            let (middle, [x, y, _]) = (scale(add(a, b), 0.5), sub(b, a));
+        let [a, b, c, d] = self.corners().map(|corner| add(self.flat[corner], ways[corner]));
+        let seams = [[a, b], [c, d]];
+        let middles = seams.map(|[first, last]| scale(add(first, last), 0.5));
+        for (((_, joint), [first, last]), middle) in self.rods.iter().zip(seams).zip(&middles) {
             // Rods lie along y in the scene.
+            let [x, y, _] = sub(last, first);
             let turn = quat_from_axis_angle([0.0, 0.0, 1.0], -ops::atan2(x, y));
-            pose.qpos[*joint..joint + 3].copy_from_slice(&middle);
+            pose.qpos[*joint..joint + 3].copy_from_slice(middle);
             pose.qpos[joint + 3..joint + 7].copy_from_slice(&turn);
         }
+        middles
     }
 
     /// Whether the arm touches it or its rods.
