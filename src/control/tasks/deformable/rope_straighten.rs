@@ -15,6 +15,8 @@ const TAUT: f64 = 1.003;
 /// Directions from the post in which the arm reaches far enough \[rad\].
 const DIRECTIONS: [f64; 2] = [-0.3, 0.1];
 
+/// Seconds in which the fingers close.
+const CLOSE: f64 = 0.4;
 /// How much farther the hand goes while the rope is not straight \[m\], how often, and how fast, as a share of full speed.
 const FARTHER: (f64, usize, f64) = (0.01, 4, 0.3);
 
@@ -47,8 +49,8 @@ impl Script for RopeStraighten {
         let goal = [grip.first[0] + length * cosine, grip.first[1] + length * sine, grip.place[2]];
         // The hand turns as the link does, the shorter way.
         let turn = (grip.along - direction + PI).rem_euclid(TAU) - PI;
-        let mut plan = self.strand.grasp(arm, &grip, direction + turn + self.strand.closing());
-        let taut = self.strand.down(arm, goal, direction + self.strand.closing());
+        let mut plan = self.strand.grasp(arm, &grip, direction + turn + self.strand.closing(0.0), CLOSE);
+        let taut = self.strand.down(arm, goal, direction + self.strand.closing(0.0));
         plan.push(Move::precise(taut, 0.0, 0.35, 1.0));
         (self.plan, self.farther) = (plan.into_iter(), 0);
         self.pull = Some((taut, scale([cosine, sine, 0.0], FARTHER.0)));

@@ -1,5 +1,5 @@
 //! Wrapping a rope round a peg: its loose end is grasped and led round the peg in short straight motions, nearer as less of it is free; over
-//! the part that comes from the post it is lifted, and beyond it let go of.
+//! the part that comes from the post it is lifted, and beyond it let go of. Where it is lost on the way it is grasped again.
 
 use super::strand::Strand;
 use crate::error::ControlError;
@@ -8,7 +8,8 @@ use crate::tasks::arms::moves::{Move, Script};
 use env::Env;
 use physics::elements::BodyId;
 use physics::math::{Vec3, add, norm, ops, sub};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
 /// Distance of the rope's middle from that of the peg, round which it is wrapped \[m\].
 const RADIUS: f64 = 0.02;
@@ -16,6 +17,8 @@ const RADIUS: f64 = 0.02;
 const SLACK: f64 = 0.88;
 /// How far beyond a full turn it is led \[rad\].
 const BEYOND: f64 = 0.7;
+/// Seconds in which the fingers close: a hand that turns sideways at once loses a post.
+const CLOSE: f64 = 0.8;
 /// Angle from one move to the next \[rad\], and its speed as a share of full speed.
 const STEP: (f64, f64) = (0.4, 0.6);
 /// How far it is lifted, and within which angle from the part that it is lifted over \[m, rad\].
@@ -30,6 +33,8 @@ pub struct RopeWrap {
     peg: BodyId,
     /// What is left to do.
     plan: std::vec::IntoIter<Move>,
+    /// Of how many moves left the rope is in the hand before the next.
+    carrying: Range<usize>,
 }
 
 impl RopeWrap {
@@ -39,7 +44,7 @@ impl RopeWrap {
     /// It has none.
     pub fn new(env: &Env) -> Result<Self, ControlError> {
         let plan = Vec::new().into_iter();
-        Ok(RopeWrap { strand: Strand::new(env)?, peg: env.scene().body("peg")?, plan })
+        Ok(RopeWrap { strand: Strand::new(env)?, peg: env.scene().body("peg")?, plan, carrying: 0..0 })
     }
 }
 
@@ -63,10 +68,10 @@ impl Script for RopeWrap {
             let (sine, cosine) = ops::sincos(from + angle);
             [peg[0] + free * cosine, peg[1] + free * sine, grip.place[2] + height]
         };
-        // The fingers open across the rope, which points away from the peg, and the wrist turns with it from one end of its range.
-        let closing = |angle: f64| grip.along - FRAC_PI_2 + angle;
-        let (mut plan, open) = (self.strand.grasp(arm, &grip, closing(0.0)), self.strand.opening(arm));
-        let count = (round / STEP.0).ceil();
+        // The rope points away from the peg, and the wrist turns with it from one end of its range.
+        let closing = |angle: f64| grip.along - self.strand.closing(PI) + angle;
+        let (mut plan, open) = (self.strand.grasp(arm, &grip, closing(0.0), CLOSE), self.strand.opening(arm));
+        let (count, grasped) = ((round / STEP.0).ceil(), plan.len());
         for k in 1..=count as usize {
             let angle = round * k as f64 / count;
             plan.push(Move::precise(self.strand.down(arm, at(angle), closing(angle)), 0.0, STEP.1, 0.0));
@@ -75,11 +80,15 @@ impl Script for RopeWrap {
         plan.push(Move::precise(last, 0.0, 0.5, 0.2));
         plan.push(Move::precise(last, open, 0.5, 0.4));
         plan.push(Move::precise(last.moved([0.0, 0.0, AWAY]), open, 0.5, 0.0));
+        self.carrying = 2..plan.len() - grasped;
         self.plan = plan.into_iter();
         Ok(())
     }
 
-    fn next(&mut self, _: &Env, _: &Arm) -> Result<Option<Move>, ControlError> {
+    fn next(&mut self, env: &Env, arm: &Arm) -> Result<Option<Move>, ControlError> {
+        if self.carrying.contains(&self.plan.len()) && self.strand.is_lost(env, arm) {
+            self.begin(env, arm)?;
+        }
         Ok(self.plan.next())
     }
 }

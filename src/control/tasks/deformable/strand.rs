@@ -6,7 +6,7 @@ use crate::tasks::arms::frame::Frame;
 use crate::tasks::arms::moves::Move;
 use env::Env;
 use physics::elements::{BodyId, GeomId, SiteId};
-use physics::math::{Vec3, add, norm, ops, scale, sub};
+use physics::math::{Vec3, add, distance, norm, ops, scale, sub};
 use std::f64::consts::FRAC_PI_2;
 
 /// How far over the rope the hand comes \[m\].
@@ -15,6 +15,8 @@ const ABOVE: f64 = 0.08;
 const OVER: f64 = 0.005;
 /// Gap on each side between the rope and fingers that are about to take it \[m\].
 const ROOM: f64 = 0.014;
+/// Distance from the fingertips at which they have lost it \[m\].
+const LOST: f64 = 0.05;
 /// Which link is held, from the loose end: the fingers are to have rope on both sides.
 const HELD: usize = 2;
 
@@ -80,10 +82,15 @@ impl Strand {
         }
     }
 
-    /// Angle from the direction of the rope to that in which fingers close that are to pull it: across it, or along it where they take hold of a
-    /// post, of which then one side pulls \[rad\].
-    pub fn closing(&self) -> f64 {
-        if self.handle.is_some() { 0.0 } else { FRAC_PI_2 }
+    /// Angle from the direction of the rope to that in which fingers close that are to pull it: across it, or `post` where they take hold of a
+    /// post \[rad\].
+    pub fn closing(&self, post: f64) -> f64 {
+        if self.handle.is_some() { post } else { FRAC_PI_2 }
+    }
+
+    /// Whether fingers that held it have lost it.
+    pub fn is_lost(&self, env: &Env, arm: &Arm) -> bool {
+        distance(arm.tool(env).place, self.grip(env).place) > LOST
     }
 
     /// Opening of the hand's fingers around what is held, 0 to 1.
@@ -98,16 +105,11 @@ impl Strand {
         arm.hand.around(place, self.width, [0.0, 0.0, -1.0], [cosine, sine, 0.0])
     }
 
-    /// Moves that take it, with fingers that close along the direction at `angle` in the plane of the table \[rad\].
-    pub fn grasp(&self, arm: &Arm, grip: &Grip, angle: f64) -> Vec<Move> {
+    /// Moves that take it, with fingers that close along the direction at `angle` in the plane of the table \[rad\], and in `pause` \[s\].
+    pub fn grasp(&self, arm: &Arm, grip: &Grip, angle: f64, pause: f64) -> Vec<Move> {
         let (hold, open) = (self.down(arm, grip.place, angle), self.opening(arm));
         let above = hold.moved([0.0, 0.0, ABOVE]);
-        let towards =
-            |to, opening, speed, pause| Move { straight: false, ..Move::precise(to, opening, speed, pause) };
-        vec![
-            towards(above, open, 1.0, 0.2),
-            Move::precise(hold, open, 0.25, 0.4),
-            Move::precise(hold, 0.0, 1.0, 0.4),
-        ]
+        let towards = |to| Move { straight: false, ..Move::precise(to, open, 1.0, 0.2) };
+        vec![towards(above), Move::precise(hold, open, 0.25, 0.4), Move::precise(hold, 0.0, 1.0, pause)]
     }
 }
