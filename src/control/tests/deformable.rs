@@ -209,6 +209,49 @@ fn cloths_are_handled_and_keep_their_shape() {
     }
 }
 
+/// A cloth that lies flat and free counts as spread where its flat side lay, and not where it has been dragged to.
+#[test]
+fn a_cloth_is_spread_where_it_lay() {
+    let mut env = Env::make("hive/ClothSpread-v0", &OwnModels, &Options::default()).unwrap();
+    let zero = vec![0.0; env.action_len()];
+    for (dragged, spread) in [(0.0, true), (0.04, true), (0.06, false), (0.2, false)] {
+        env.reset(Some(0)).unwrap();
+        let (m, mut world) = (&env.scene().model, env.world());
+        let qpos = world.qpos.as_mut().unwrap();
+        let start = |body: usize| m.jnt_qposadr[m.body_jntadr[body] as usize] as usize;
+        let [handle, flat] = ["rod_0", "rod_1"].map(|name| start(m.body(name).unwrap().index()));
+        // The cloth of the scene lies flat: it is put down turned and moved as its flat side is.
+        let place = |qpos: &[f64], joint: usize| [qpos[joint], qpos[joint + 1]];
+        let turned =
+            2.0 * (qpos[flat + 6].atan2(qpos[flat + 3]) - m.qpos0[flat + 6].atan2(m.qpos0[flat + 3]));
+        let (lay, origin) = (place(qpos, flat), place(&m.qpos0, flat));
+        let moved = |[x, y]: [f64; 2]| {
+            let (sine, cosine) = turned.sin_cos();
+            let [x, y] = [x - origin[0], y - origin[1]];
+            [lay[0] + dragged + cosine * x - sine * y, lay[1] + sine * x + cosine * y]
+        };
+        for body in m.flex_vertbodyid.iter().map(|body| *body as usize) {
+            let [x, y, _] = m.body_pos[body];
+            let [to_x, to_y] = moved([x, y]);
+            qpos[start(body)..start(body) + 3].copy_from_slice(&[to_x - x, to_y - y, 0.0]);
+        }
+        for joint in [handle, flat] {
+            let to = moved(place(&m.qpos0, joint));
+            let turn: [f64; 4] = qpos[flat + 3..flat + 7].try_into().unwrap();
+            qpos[joint..joint + 3].copy_from_slice(&[to[0], to[1], m.qpos0[joint + 2]]);
+            qpos[joint + 3..joint + 7].copy_from_slice(&turn);
+        }
+        world.qvel.as_mut().unwrap().fill(0.0);
+        env.set_world(&world).unwrap();
+        (0..4).for_each(|_| drop(env.step(&zero).unwrap()));
+        let rows = ["covered", "moved", "touched", "held"].map(|row| env.rows()[row][0]);
+        let [covered, moved, touched, held] = rows;
+        assert!(covered > 0.97 && touched == 0.0, "{dragged}: {rows:?}");
+        assert!((moved - dragged).abs() < 0.005, "{dragged}: {rows:?}");
+        assert_eq!(held > 0.2, spread, "{dragged}: {rows:?}");
+    }
+}
+
 /// The Adroit hand does with a post what the Panda does with rope and rod themselves. It lifts the post of a cloth by more than its height, that of a
 /// rope over the rope, and drags it to pull the rope straight: it stays within a quarter of its height of the table.
 #[test]
