@@ -51,9 +51,21 @@ impl Row {
         let whole = self.soft.as_ref().is_none_or(Soft::is_whole);
         self.unstable + self.warnings + self.not_finite + self.lost == 0 && whole
     }
+
+    /// Its row of the table.
+    fn line(&self) -> String {
+        let Row { id, episodes, steps, unstable, warnings, not_finite, bodies, lost, soft, .. } = self;
+        let [edge, through, pierced, rope] = soft.as_ref().map_or(["-"; 4].map(String::from), Soft::cells);
+        let holds = if self.holds() { "yes" } else { "no" };
+        format!(
+            "| {id} | {episodes} | {steps} | {unstable} | {warnings} | {not_finite} | {lost} | {bodies} \
+             | {edge} | {through} | {pierced} | {rope} | {holds} |"
+        )
+    }
 }
 
-/// Every id on a model of our own, of one suite or of all, on a number of threads. Ids that add pictures to another one are left out.
+/// Every id on a model of our own, of one suite or of all, on a number of threads. Ids that add pictures to another one are left out. Prints each row
+/// as it is measured, so that a run that is cut off has told what it found.
 ///
 /// # Errors
 /// There is no such suite; an environment that fails, with its id.
@@ -68,11 +80,7 @@ pub fn measure(suite: &str, only: &str, episodes: u64, threads: usize) -> Result
             specs.get(next.fetch_add(1, Ordering::Relaxed)).map(|spec| (spec.id.clone(), spec))
         {
             let row = row(spec, episodes).map_err(|error| format!("{}: {error}", spec.id));
-            println!(
-                "{}: {}",
-                spec.id,
-                row.as_ref().map_or("fails", |row| if row.holds() { "holds" } else { "breaks" })
-            );
+            println!("{}", row.as_ref().map_or_else(Clone::clone, Row::line));
             if let Ok(mut rows) = rows.lock() {
                 rows.insert(place, row);
             }
@@ -125,14 +133,7 @@ fn warnings(env: &Env) -> usize {
 pub fn render(rows: &[Row]) -> (String, Result<(), String>) {
     let mut table = String::from(HEAD);
     for row in rows {
-        let Row { id, episodes, steps, unstable, warnings, not_finite, bodies, lost, soft, .. } = row;
-        let _ = write!(
-            table,
-            "| {id} | {episodes} | {steps} | {unstable} | {warnings} | {not_finite} | {lost} | {bodies} "
-        );
-        let [edge, through, pierced, rope] = soft.as_ref().map_or(["-"; 4].map(String::from), Soft::cells);
-        let holds = if row.holds() { "yes" } else { "no" };
-        let _ = writeln!(table, "| {edge} | {through} | {pierced} | {rope} | {holds} |");
+        let _ = writeln!(table, "{}", row.line());
     }
     let broken: Vec<_> = rows.iter().filter(|row| !row.holds()).map(|row| row.id.as_str()).collect();
     let verdict = if broken.is_empty() {
