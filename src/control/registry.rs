@@ -136,6 +136,13 @@ const ALL: &[Entry] = &[
         build: |env| Ok(Box::new(tasks::claws::pose::ClawPose::new(env)?)),
     },
     Entry {
+        name: "servo_pose",
+        summary: "servos told their places at once",
+        serves: &["kitty_stand", "ee_pose", "robotiq_pose"],
+        feet: None,
+        build: |env| Ok(Box::new(tasks::pose::ServoPose::new(env)?)),
+    },
+    Entry {
         name: "claw_turn",
         summary: "three fingers in unison push the blades of a valve, go back over them and push again",
         serves: &["dclaw_turn", "dclaw_screw"],

@@ -27,7 +27,7 @@ with layer normalisation and returns of several steps; bc, behaviour cloning of 
 what to do in each state that the policy comes to (Ross et al., 2011); dapg, the natural policy gradient with demonstrations (Rajeswaran \
 et al., 2018).
 
-A teacher is a controller (`robohive run ID --controller list`) or a policy. Its successful episodes are kept in the folder, as \
+A teacher is a controller (`robohive run ID --controller list`) or a policy, a pickle of mjrl among them. Its successful episodes are kept in the folder, as \
 demonstrations.safetensors, so that a run resumes without it; but dagger asks it again and again.
 
 Examples:

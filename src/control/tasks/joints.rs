@@ -1,5 +1,7 @@
 //! Joints between two parts of a body, and the servos that move them.
 
+use crate::error::ControlError;
+use env::Env;
 use physics::Model;
 use physics::elements::{BodyId, Element, JointId, SiteId};
 use physics::model::{BiasType, TrnType};
@@ -26,6 +28,18 @@ impl Servo {
         let lag = if stiffness > 0.0 { (damping + passive) / stiffness } else { 0.0 };
         Servo { place: m.jnt_qposadr[joint] as usize, lag, stiffness }
     }
+}
+
+/// The first place in `qpos` of the joints whose first and last a setting names.
+///
+/// # Errors
+/// The setting or the joint is missing.
+pub fn first_place(env: &Env, setting: &str) -> Result<usize, ControlError> {
+    let named = env.spec().args.get::<[String; 2]>(setting);
+    let [name, _] =
+        named.ok_or_else(|| ControlError::unfit(env, format!("the setting {setting} is needed")))?;
+    let scene = env.scene();
+    Ok(scene.model.joint(scene.joint(&name)?).qpos_range().start)
 }
 
 /// The control of the actuator that moves a joint, and its servo.

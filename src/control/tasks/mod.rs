@@ -9,5 +9,6 @@ mod joints;
 pub mod locomotion;
 pub mod multi_agent;
 pub mod muscles;
+pub mod pose;
 mod roles;
 pub mod tabletop;

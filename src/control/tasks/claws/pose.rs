@@ -3,7 +3,7 @@
 
 use crate::controller::{Controller, command};
 use crate::error::ControlError;
-use crate::tasks::joints::Servo;
+use crate::tasks::joints::{Servo, first_place};
 use env::Env;
 
 /// A servo, and the joint that it follows.
@@ -21,22 +21,14 @@ pub struct ClawPose {
     controls: Vec<f64>,
 }
 
-/// The first place in `qpos` of the joints that a setting names.
-fn first(env: &Env, setting: &str) -> Result<usize, ControlError> {
-    let named = env.spec().args.get::<[String; 2]>(setting);
-    let [name, _] =
-        named.ok_or_else(|| ControlError::unfit(env, format!("the setting {setting} is needed")))?;
-    let scene = env.scene();
-    Ok(scene.model.joint(scene.joint(&name)?).qpos_range().start)
-}
-
 impl ClawPose {
     /// The controller.
     ///
     /// # Errors
     /// A setting or a joint is missing.
     pub fn new(env: &Env) -> Result<Self, ControlError> {
-        let (claw, overlay) = (first(env, "dof_range_names")?, first(env, "overlay_range_names")?);
+        let [claw, overlay] =
+            [first_place(env, "dof_range_names")?, first_place(env, "overlay_range_names")?];
         let m = &env.scene().model;
         let follower = |actuator: usize| {
             let servo = Servo::new(m, actuator);

@@ -68,7 +68,8 @@ impl Script for RopeWrap {
             let (sine, cosine) = ops::sincos(from + angle);
             [peg[0] + free * cosine, peg[1] + free * sine, grip.place[2] + height]
         };
-        // The rope points away from the peg, and the wrist turns with it from one end of its range.
+        // The rope points away from the peg, and the wrist turns with it from one end of its range. A post that
+        // is held across the fingers instead is dropped on the way.
         let closing = |angle: f64| grip.along - self.strand.closing(PI) + angle;
         let (mut plan, open) = (self.strand.grasp(arm, &grip, closing(0.0), CLOSE), self.strand.opening(arm));
         let (count, grasped) = ((round / STEP.0).ceil(), plan.len());
