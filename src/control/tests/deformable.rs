@@ -149,7 +149,7 @@ fn grains_are_scooped_and_carried_up() {
     assert!(!play(id, 0, false).0, "{id} is solved by zero actions");
 }
 
-/// A heap of 64 grains of 12 mm stays one when it is left alone, and is one layer when it is solved.
+/// A heap of 64 grains of 12 mm stays one when it is left alone, and is one layer when it is solved, as most are.
 #[test]
 fn grains_are_flattened_and_stay_a_heap_otherwise() {
     let id = "hive/GrainFlatten-v0";
@@ -158,12 +158,16 @@ fn grains_are_flattened_and_stay_a_heap_otherwise() {
         let mean = heights.iter().sum::<f64>() / heights.len() as f64;
         (heights.iter().map(|height| (height - mean).powi(2)).sum::<f64>() / heights.len() as f64).sqrt()
     };
-    let mut last = f64::INFINITY;
-    let (solved, _) = watch(id, 0, true, |env| {
-        last = spread(env);
-        assert!((last - env.rows()["spread"][0]).abs() < 1e-12);
-    });
-    assert!(solved && last < 0.0025, "{id}: {last} m");
+    let (mut last, mut count) = (f64::INFINITY, 0);
+    for seed in 0..3 {
+        let (solved, _) = watch(id, seed, true, |env| {
+            last = spread(env);
+            assert!((last - env.rows()["spread"][0]).abs() < 1e-12);
+        });
+        assert_eq!(solved, last < 0.0025, "{id}, seed {seed}: {last} m");
+        count += usize::from(solved);
+    }
+    assert!(count >= 2, "{count} of 3 heaps are flattened");
     let left = watch(id, 0, false, |env| last = spread(env)).0;
     assert!(!left && last > 0.003, "{id}: {last} m by zero actions");
 }
