@@ -4,6 +4,7 @@ python examples/sac_sb3.py [--id ID] [--steps N]
 """
 
 import argparse
+import time
 
 import gymnasium as gym
 import robohive  # noqa: F401
@@ -21,9 +22,11 @@ def main() -> None:
     env = Monitor(gym.make(chosen.id))
     model = SAC("MlpPolicy", env, seed=0, learning_starts=min(1000, chosen.steps // 2))
     before, _ = evaluate_policy(model, env, n_eval_episodes=3)
+    began = time.process_time()
     model.learn(total_timesteps=chosen.steps)
+    rate = chosen.steps / (time.process_time() - began)
     after, _ = evaluate_policy(model, env, n_eval_episodes=3)
-    print(f"mean return {before:.2f} before, {after:.2f} after {chosen.steps} steps")
+    print(f"mean return {before:.2f} before, {after:.2f} after {chosen.steps} steps, {rate:.0f} steps/s")
     env.close()
 
 

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from robohive import _core
 from robohive.control import Controller, controllers
+from robohive.errors import SettingError
 from robohive.examine import Policy, examine_policy
 from robohive.guests import with_model
 from robohive.live import Ready, asked
@@ -25,6 +26,17 @@ from robohive.simulation import Simulation
 from robohive.whole_numbers import whole
 
 Floats = NDArray[np.float64]
+
+
+def _made(arguments: tuple[Any, ...], settings: dict[str, Any]) -> _core.Env:
+    """The environment; an unknown setting is named in Python's own words too, by which libraries tell what they may leave out."""
+    try:
+        return _core.Env(*arguments)
+    except SettingError as error:
+        for name in settings:
+            if any(words in str(error) for words in (f"there is no {name};", f"unknown field `{name}`")):
+                raise SettingError(f"{error} (unexpected keyword argument {name!r})") from None
+        raise
 
 
 class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
@@ -113,7 +125,7 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
             "hardware": asked(is_hardware, settings, robot_config, arm, dry_run, rehearse, flight, ready),
         }
         self._arguments = (env_id, with_model(env_id, settings), making)
-        self._start(_core.Env(*self._arguments), render_mode)
+        self._start(_made(self._arguments, settings), render_mode)
 
     def _start(self, core: _core.Env, render_mode: str | None) -> None:
         about = core.description()

@@ -4,7 +4,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-EXAMPLE = Path(__file__).parents[1] / "examples" / "datasets.py"
+EXAMPLE = Path(__file__).parents[1] / "examples" / "write_datasets.py"
 
 
 def test_datasets(tmp_path):

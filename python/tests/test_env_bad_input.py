@@ -77,6 +77,8 @@ def test_unknown_ids_name_the_nearest():
     ("kwargs", "error", "message"),
     [
         ({"frame_skips": 3}, TypeError, "there is no frame_skips; did you mean frame_skip?"),
+        # TorchRL leaves out what Python's words name.
+        ({"frameskip": 1}, TypeError, "unexpected keyword argument 'frameskip'"),
         ({"frame_skip": 99999999999}, ValueError, "at most 10000"),
         ({"obs_range": [5, -5]}, ValueError, "the lower one first"),
         ({"obs_range": [float("nan"), 5]}, ValueError, "the lower one first"),

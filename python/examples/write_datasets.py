@@ -1,6 +1,6 @@
 """Records episodes, and makes datasets of Minari and LeRobot of them.
 
-    python datasets.py FOLDER
+    python write_datasets.py FOLDER
 
 Needs numpy alone; what reads the datasets is named at the end.
 """
