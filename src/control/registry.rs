@@ -324,7 +324,9 @@ const ALL: &[Entry] = &[
         summary: "a cup that is brought beside the bowl and tilted",
         serves: &["grain_pour"],
         feet: None,
-        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "grain_pour")?, GrainPour::new(env)?))),
+        build: |env| {
+            Ok(Box::new(Scripted::new(Arm::new(env, "grain_pour")?, Attempts::new(GrainPour::new(env)?))))
+        },
     },
     Entry {
         name: "grain_scoop",

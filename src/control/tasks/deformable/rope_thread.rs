@@ -1,4 +1,5 @@
-//! Threading a rope: it is grasped behind its stiff tip, which is brought before the ring, put straight to its axis, and pushed through.
+//! Threading a rope: it is grasped behind its stiff tip, itself or by a post there, brought before the ring, put straight to its axis, and pushed
+//! through.
 
 use crate::error::ControlError;
 use crate::tasks::arms::arm::Arm;
@@ -6,15 +7,14 @@ use crate::tasks::arms::frame::Frame;
 use crate::tasks::arms::grasp::{Carry, Grasp, Load, from_above};
 use crate::tasks::arms::moves::{Move, Script};
 use env::Env;
-use physics::elements::{BodyId, SiteId};
+use physics::elements::{BodyId, GeomId, SiteId};
 use physics::math::{add, norm, ops, quat_from_axis_angle, quat_mul, scale, sub};
 use std::f64::consts::FRAC_PI_2;
 
 /// The link that is held: with those after it, it is the tip.
 const HELD: &str = "rope_19";
 /// Width of the rope, and how far over its middle fingers would be clear of it, which they are to reach below \[m\].
-const WIDTH: f64 = 0.01;
-const BELOW: f64 = 0.008;
+const ROPE: (f64, f64) = (0.01, 0.008);
 /// Speed at which it is touched, as a share of full speed, and seconds in which fingers close: the arm is to have come to rest.
 const TOUCH: [f64; 2] = [0.2, 0.8];
 /// How far the loose end is from the middle of the ring along its axis: before it, and when it is threaded \[m\].
@@ -25,6 +25,11 @@ const STRAIGHTEN: usize = 2;
 
 pub struct RopeThread {
     held: BodyId,
+    /// The post on it, if it has one.
+    handle: Option<GeomId>,
+    /// Width of what is held, and how far over its middle fingers would be clear of it \[m\].
+    width: f64,
+    below: f64,
     end: SiteId,
     ring: SiteId,
     grasp: Grasp,
@@ -37,9 +42,11 @@ impl RopeThread {
     /// It has none.
     pub fn new(env: &Env) -> Result<Self, ControlError> {
         let scene = env.scene();
-        let load = Load { width: WIDTH, above: 0.06, away: 0.06, touch: TOUCH };
-        let (end, ring) = (scene.site("rope_end")?, scene.site("ring")?);
-        Ok(RopeThread { held: scene.body(HELD)?, end, ring, grasp: Grasp::new(load) })
+        let (end, ring, handle) = (scene.site("rope_end")?, scene.site("ring")?, scene.model.geom("handle"));
+        let post = |geom: GeomId| scene.model.geom_size[geom.index()];
+        let (width, below) = handle.map(post).map_or(ROPE, |size| (2.0 * size[0], size[2]));
+        let load = Load { width, above: 0.06, away: 0.06, touch: TOUCH };
+        Ok(RopeThread { held: scene.body(HELD)?, handle, width, below, end, ring, grasp: Grasp::new(load) })
     }
 }
 
@@ -62,9 +69,10 @@ impl Script for RopeThread {
             Frame { place, turn: ring.turn }.with(&tool.within(&tip))
         };
         // Fingers close across the middle of the link, the way round in which the wrist can put it before the ring.
-        let middle = add(begin, scale(way, 0.1));
+        let middle =
+            self.handle.map_or_else(|| add(begin, scale(way, 0.1)), |post| data.kin.geom_xpos[post.index()]);
         let across = quat_mul(yaw, quat_from_axis_angle([0.0, 0.0, 1.0], FRAC_PI_2));
-        let ways = from_above(arm, &Frame { place: middle, turn: across }, WIDTH, BELOW, false);
+        let ways = from_above(arm, &Frame { place: middle, turn: across }, self.width, self.below, false);
         let goals: Vec<Frame> = ways.iter().map(|way| goal(BEFORE, way)).collect();
         let from = arm.places(&data.state.qpos);
         let best =
