@@ -173,7 +173,8 @@ fn grains_are_flattened(id: &str) {
             last = spread(env);
             assert!((last - env.rows()["spread"][0]).abs() < 1e-12);
         });
-        assert_eq!(solved, last < 0.0025, "{id}, seed {seed}: {last} m");
+        // A heap that is flattened only when time is up is not solved.
+        assert!(!solved || last < 0.0025, "{id}, seed {seed}: {last} m");
         count += usize::from(solved);
     }
     assert!(count >= 2, "{count} of 3 heaps are flattened");
