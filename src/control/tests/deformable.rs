@@ -167,14 +167,15 @@ fn grains_are_flattened(id: &str) {
         let mean = heights.iter().sum::<f64>() / heights.len() as f64;
         (heights.iter().map(|height| (height - mean).powi(2)).sum::<f64>() / heights.len() as f64).sqrt()
     };
-    let (mut last, mut count) = (f64::INFINITY, 0);
+    let (mut last, mut held, mut count) = (f64::INFINITY, 0.0, 0);
     for seed in 0..3 {
         let (solved, _) = watch(id, seed, true, |env| {
-            last = spread(env);
+            (last, held) = (spread(env), env.rows()["held"][0]);
             assert!((last - env.rows()["spread"][0]).abs() < 1e-12);
+            assert!(held == 0.0 || last < 0.0025, "{id}, seed {seed}: {last} m for {held} s");
         });
-        // A heap that is flattened only when time is up is not solved.
-        assert!(!solved || last < 0.0025, "{id}, seed {seed}: {last} m");
+        // A heap that is flat only when time is up is not solved.
+        assert_eq!(solved, held >= 0.5, "{id}, seed {seed}: {last} m for {held} s");
         count += usize::from(solved);
     }
     assert!(count >= 2, "{count} of 3 heaps are flattened");
@@ -269,15 +270,15 @@ fn a_cloth_is_spread_where_it_lay() {
     }
 }
 
-/// The Adroit hand does with a post what the Panda does with rope and rod themselves. It lifts the post of a cloth by more than half of its height, that
-/// of a rope over the rope or to the height of a ring, and drags it to pull the rope straight: it stays within a quarter of its
-/// height of the table.
+/// The Adroit hand does with a post what the Panda does with rope and rod themselves. It lifts the post of a cloth by more than its height to
+/// fold it, and to spread it so high, 41 mm over the table, that half of the post's diagonal of 64 mm is clear of that in whatever way the post is turned. It lifts that of a rope over the
+/// rope or to the height of a ring, and drags it to pull the rope straight: it stays within a quarter of its height of the table.
 #[test]
 fn thumb_and_fingers_take_a_post() {
     let tasks = [
         ("RopeStraighten", -0.01..0.01),
         ("RopeWrap", 0.02..0.06),
-        ("ClothFold", 0.02..0.2),
+        ("ClothFold", 0.04..0.2),
         ("ClothSpread", 0.02..0.2),
         ("RopeThread", 0.03..0.07),
     ];
