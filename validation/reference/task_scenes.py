@@ -47,8 +47,9 @@ def scenes(program):
     return {(each["model_path"], tuple(map(tuple, each.get("define", [])))) for each in settings}
 
 
-def replaced(path, words):
-    """The path of a file whose words are replaced, and those of the texts that it names; written if any is in them."""
+def replaced(path, words, made):
+    """The path of a file whose words are replaced, and those of the texts that it names; written if any is in them.
+    `made` are the texts written so far."""
     text = original = path.read_text()
     for word, replacement in words:
         text = text.replace(word, replacement)
@@ -56,22 +57,28 @@ def replaced(path, words):
     def named(match):
         if not (path.parent / match[2]).exists():  # relative to the file that names this one: a part of a robot, without words
             return match[0]
-        return match[1] + str(Path(match[2]).with_name(replaced(path.parent / match[2], words).name)) + match[3]
+        return match[1] + str(Path(match[2]).with_name(replaced(path.parent / match[2], words, made).name)) + match[3]
 
     text = NAMED.sub(named, text)
     if text == original:
         return path
-    suffix = re.sub(r"\W", "_", words[0][1])
-    written = path.with_name(f"{path.stem}_{suffix}.xml")
-    written.write_text(text)
-    return written
+    for count in range(1, len(words) + 1):
+        suffix = re.sub(r"\W+", "_", "_".join(replacement for _, replacement in words[:count]))
+        written = path.with_name(f"{path.stem}_{suffix}.xml")
+        # Environments whose first words are the same may differ in others.
+        if made.setdefault(written, text) == text:
+            written.write_text(text)
+            return written
+    raise ValueError(f"{path}: two environments replace other words of it by the same")
 
 
 def main():
     args = arguments(__doc__)
-    found = []
+    # Of a relative path MuJoCo looks for texts that a model to be attached names below that path twice.
+    args.models = args.models.resolve()
+    found, made = [], {}
     for path, words in sorted(scenes(args.robohive)):
-        found.append(replaced(args.models / path, words) if words else args.models / path)
+        found.append(replaced(args.models / path, words, made) if words else args.models / path)
     lines = sorted({str(path.relative_to(args.models)) for path in found})
     args.list.write_text("".join(line + "\n" for line in lines))
     args.out.mkdir(parents=True, exist_ok=True)
