@@ -55,7 +55,7 @@ def test_errors_name_what_would_do():
         env.controller("rech")
     with pytest.raises(ValueError, match="serves acrobot, not hive/FrankaReach-v0"):
         env.controller("acrobot")
-    with pytest.raises(ValueError, match="no controller serves hive/QuadrupedWalk-v0"):
+    with pytest.raises(ValueError, match="no controller is made for hive/QuadrupedWalk-v0"):
         robohive.make("hive/QuadrupedWalk-v0").controller()
     with pytest.raises(ValueError, match="seed"):
         env.controller().reset(seed=-1)

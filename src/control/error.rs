@@ -56,7 +56,10 @@ impl ControlError {
 /// Which controllers would do.
 fn instead(id: &str, serving: &[&str]) -> String {
     if serving.is_empty() {
-        format!("no controller serves {id}; `robohive run {id} --policy FILE` plays a policy")
+        format!(
+            "no controller is made for {id}; `robohive run {id} --controller planner` plans by its reward, and `--policy FILE` plays a \
+             policy"
+        )
     } else {
         format!("{id} is served by {}", serving.join(", "))
     }

@@ -27,6 +27,7 @@ use crate::tasks::deformable::rope_thread::RopeThread;
 use crate::tasks::deformable::rope_wrap::RopeWrap;
 use crate::tasks::deformable::sponge_press::SpongePress;
 use crate::tasks::deformable::sponge_wipe::SpongeWipe;
+use crate::tasks::planner::Planner;
 use crate::tasks::tabletop::drawer::Drawer;
 use crate::tasks::tabletop::insert::Insert;
 use crate::tasks::tabletop::stack::Stack;
@@ -377,14 +378,24 @@ const ALL: &[Entry] = &[
         feet: Some(2),
         build: |env| Ok(Box::new(tasks::locomotion::walk::Walk::new(env)?)),
     },
+    Entry {
+        name: PLANNER,
+        summary: "predictive sampling over copies of the environment, by its dense reward; plays any environment",
+        serves: &["kitchen", "appliance", "push"],
+        feet: None,
+        build: |env| Ok(Box::new(Planner::new(env))),
+    },
 ];
+
+/// The controller that plays whatever it is asked to, beside the tasks that it is the choice for.
+const PLANNER: &str = "planner";
 
 /// Every controller.
 pub fn controllers() -> &'static [Entry] {
     ALL
 }
 
-/// The controllers that serve an environment, the best first.
+/// The controllers that serve an environment, the best first; the one named `planner` plays others, too.
 pub fn serving(spec: &Spec) -> impl Iterator<Item = &'static Entry> {
     ALL.iter().filter(move |entry| entry.serves(spec))
 }
@@ -399,7 +410,7 @@ pub fn make(name: &str, env: &Env) -> Result<Box<dyn Controller>, ControlError> 
     let Some(entry) = ALL.iter().find(|entry| entry.name == name) else {
         return Err(ControlError::Unknown { name: name.into(), id: spec.id.clone(), serving: names() });
     };
-    if !entry.serves(spec) {
+    if !entry.serves(spec) && entry.name != PLANNER {
         let (id, serving) = (spec.id.clone(), names());
         let (name, serves, feet) = (entry.name, entry.serves, entry.feet);
         return Err(ControlError::NotServed { name, id, serves, feet, serving });
@@ -436,7 +447,7 @@ mod tests {
         assert_eq!(unknown, "there is no controller rech; hive/FrankaReach-v0 is served by reach");
         let other = error("hive/QuadrupedWalk-v0", "reach");
         assert!(other.contains("serves reach, not hive/QuadrupedWalk-v0"), "{other}");
-        assert!(other.contains("no controller serves hive/QuadrupedWalk-v0"), "{other}");
+        assert!(other.contains("no controller is made for hive/QuadrupedWalk-v0"), "{other}");
         let feet = error("hive/DarwinTurn-v0", "trot");
         assert!(feet.contains("of bodies with 4 feet, not hive/DarwinTurn-v0"), "{feet}");
         assert!(feet.ends_with("hive/DarwinTurn-v0 is served by walk"), "{feet}");

@@ -15,9 +15,10 @@ const FOLDER: &str = "validation/results";
 const MADE: &str = "Made from commit ";
 
 /// Tables that speak of other code than [`ENGINE`], with that code.
-const SPEAK_OF: [(&str, &[&str]); 32] = [
+const SPEAK_OF: [(&str, &[&str]); 35] = [
     ("bus_time", &["src/protocol", "src/wire", "src/hardware"]),
     ("controllers", &["src/physics", "mjcf", "src/robot", "src/env", "src/control", "assets"]),
+    ("deformable_tasks", &["src/physics", "mjcf", "assets"]),
     ("draws", &["src/random"]),
     ("encoders", &["src/encoders"]),
     ("environments", &["src/physics", "mjcf", "src/robot", "src/env"]),
@@ -27,6 +28,7 @@ const SPEAK_OF: [(&str, &[&str]); 32] = [
     ("identify", &["src/physics", "mjcf", "src/identify"]),
     ("items", &["src/physics", "mjcf", "src/render/scene"]),
     ("laws", &["src/physics", "mjcf", "src/robot", "src/env", "assets"]),
+    ("learners", &["src/physics", "src/env", "python"]),
     ("learning_speed", &["src/physics", "src/env", "src/agents", "python"]),
     ("pictures", &["src/physics", "mjcf", "src/render"]),
     ("pictures_gpu", &["src/physics", "mjcf", "src/render", "src/render_gpu"]),
@@ -46,6 +48,7 @@ const SPEAK_OF: [(&str, &[&str]); 32] = [
     ("standin_suite", &["src/physics", "mjcf", "python"]),
     ("standin_sysid", &["src/physics", "mjcf", "python"]),
     ("standin_tests", &["src/physics", "mjcf", "python"]),
+    ("targets", &["src/physics", "mjcf", "src/env", "src/agents"]),
     ("task_scenes", &["src/physics", "mjcf", "assets"]),
     ("web", &["src/physics", "mjcf", "src/render", "src/viewer", "web"]),
 ];

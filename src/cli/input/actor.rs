@@ -67,7 +67,7 @@ impl ActorArguments {
         let id = &env.spec().id;
         let name = self.controller(env).ok_or_else(|| {
             Failure::usage(format!(
-                "no policy is shipped for {id}, and no controller serves it; `robohive train {id}` trains a policy"
+                "no policy is shipped for {id}, and no controller is made for it; `robohive train {id}` trains a policy, `--controller planner` plans"
             ))
         })?;
         if name == LIST {
@@ -130,7 +130,7 @@ fn show_controllers(env: &Env) {
         show!("{:20} {}", entry.name, entry.summary);
     }
     if !found {
-        show!("no controller serves {id}; there are");
+        show!("no controller is made for {id}; planner plays any environment, and there are");
         for entry in control::controllers() {
             show!("{:20} {} (for {})", entry.name, entry.summary, entry.serves.join(", "));
         }

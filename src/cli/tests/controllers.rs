@@ -23,7 +23,7 @@ fn a_controller_is_listed_and_solves_the_task() {
 fn what_serves_the_id_is_said() {
     let none = robohive(&["run", "hive/QuadrupedWalk-v0", "--controller", "list"]);
     assert!(
-        text(&none.stdout).contains("no controller serves hive/QuadrupedWalk-v0"),
+        text(&none.stdout).contains("no controller is made for hive/QuadrupedWalk-v0"),
         "{}",
         text(&none.stdout)
     );

@@ -1,33 +1,10 @@
-//! Model-predictive control by sampling: many noisy copies of a plan are simulated side by side, and the plan moves towards those that
-//! cost least. Predictive sampling takes the best (Howell et al., Predictive sampling: real-time behaviour synthesis with MuJoCo,
-//! arXiv 2212.00541, 2022), the cross-entropy method the mean of an elite (Kobilarov, Cross-entropy motion planning, International
-//! Journal of Robotics Research 31, 2012), path integrals a mean weighted by the exponential of the cost (Williams et al., Information
-//! theoretic MPC for model-based reinforcement learning, ICRA 2017).
+//! Model-predictive control by sampling: noisy copies of a plan are simulated side by side from the present state, and the plan moves
+//! towards those that cost least.
 
 use super::NoSolution;
+use super::proposals::{Method, Proposals, Sample, interpolate, wrong};
 use physics::{Batch, Data, Model, Snapshot, step};
-use random::Generator;
 use std::sync::atomic::{AtomicU64, Ordering};
-
-/// Smallest deviation of the cross-entropy method, as a share of that at the beginning.
-const LEAST: f64 = 0.1;
-
-/// How a plan moves towards its samples.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Method {
-    /// The best sample becomes the plan.
-    Predictive,
-    /// The mean of the best samples becomes the plan, their deviations the noise of the next.
-    CrossEntropy {
-        /// How many are the best.
-        elites: usize,
-    },
-    /// The mean of all samples, each weighted by the exponential of what it costs more than the best.
-    PathIntegral {
-        /// Cost at which a weight is 1/e of that of the best.
-        temperature: f64,
-    },
-}
 
 /// Sizes of a search.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,20 +29,9 @@ pub struct Settings {
 /// improved from, never on the number of threads.
 pub struct Sampler {
     settings: Settings,
-    bounds: Vec<[f64; 2]>,
-    /// Knots by controls.
-    plan: Vec<f64>,
-    /// Deviation of each number of the plan.
-    deviation: Vec<f64>,
-    noise: Generator<random::Pcg64>,
+    proposals: Proposals,
     /// A simulation a sample, with its plan and what it costs.
     batch: Batch<Sample>,
-}
-
-#[derive(Clone, Default)]
-struct Sample {
-    plan: Vec<f64>,
-    cost: f64,
 }
 
 impl Sampler {
@@ -74,50 +40,37 @@ impl Sampler {
     /// # Errors
     /// Controls without a range; sizes that make no search; threads that cannot be started.
     pub fn new(model: &Model, settings: Settings) -> Result<Self, NoSolution> {
-        if settings.knots < 2 || settings.samples < 2 || settings.steps < 1 {
-            return Err(wrong("a search has 2 knots, 2 samples and 1 step at least".into()));
+        let Settings { method, samples, steps, knots, noise, threads, seed } = settings;
+        if knots < 2 || samples < 2 || steps < 1 {
+            return Err(wrong("a search has 2 knots, 2 samples and 1 step at least"));
         }
         if let Some(k) = (0..model.nu).find(|&k| !model.actuator_ctrllimited[k]) {
             return Err(wrong(format!("actuator {k} has no range of controls to draw from")));
         }
-        let elites = match settings.method {
+        let elites = match method {
             Method::CrossEntropy { elites } => elites,
             _ => 1,
         };
-        if !(1..=settings.samples).contains(&elites) {
-            return Err(wrong(format!("{elites} of {} samples cannot be the best", settings.samples)));
+        if !(1..=samples).contains(&elites) {
+            return Err(wrong(format!("{elites} of {samples} samples cannot be the best")));
         }
-        let samples = vec![Sample::default(); settings.samples];
-        let batch = Batch::with_payloads(model.clone(), samples, settings.threads);
-        let mut sampler = Sampler {
-            bounds: model.actuator_ctrlrange[..model.nu].to_vec(),
-            plan: Vec::new(),
-            deviation: Vec::new(),
-            noise: Generator::pcg64(settings.seed),
+        let batch = Batch::with_payloads(model.clone(), vec![Sample::default(); samples], threads);
+        let bounds = model.actuator_ctrlrange[..model.nu].to_vec();
+        Ok(Sampler {
+            proposals: Proposals::new(bounds, method, knots, noise, seed)?,
             batch: batch.map_err(|error| wrong(error.to_string()))?,
             settings,
-        };
-        sampler.reset(sampler.settings.seed);
-        Ok(sampler)
+        })
     }
 
     /// Forgets the plan, and begins the noise of a seed.
     pub fn reset(&mut self, seed: u64) {
-        let rest = self.bounds.iter().map(|[low, high]| 0.0_f64.clamp(*low, *high));
-        self.plan = rest.collect::<Vec<_>>().repeat(self.settings.knots);
-        self.deviation = self.widest();
-        self.noise = Generator::pcg64(seed);
+        self.proposals.restart(seed);
     }
 
     /// Plans to give the same controls (nu) throughout, each within its range.
     pub fn hold(&mut self, controls: &[f64]) {
-        let held = self.bounds.iter().zip(controls).map(|([low, high], control)| control.clamp(*low, *high));
-        self.plan = held.collect::<Vec<_>>().repeat(self.settings.knots);
-    }
-
-    fn widest(&self) -> Vec<f64> {
-        let each = self.bounds.iter().map(|[low, high]| self.settings.noise * (high - low) / 2.0);
-        each.collect::<Vec<_>>().repeat(self.settings.knots)
+        self.proposals.hold(controls);
     }
 
     /// Improves the plan once from a state. `cost`, which is not negative, is asked after every time step of every sample, and its sum is
@@ -131,17 +84,17 @@ impl Sampler {
         state: &Snapshot,
         cost: impl Fn(&Model, &Data) -> f64 + Sync,
     ) -> Result<f64, NoSolution> {
-        self.draw();
-        let (steps, knots, bounds) = (self.settings.steps, self.settings.knots, &self.bounds);
+        self.proposals.draw(self.batch.payloads_mut().iter_mut());
+        let Settings { method, steps, knots, .. } = self.settings;
         // Whichever samples are over first, the best is never ended early. Bits of numbers that are not negative have their order.
         let least = AtomicU64::new(f64::INFINITY.to_bits());
-        let only_the_best_counts = self.settings.method == Method::Predictive;
+        let only_the_best_counts = method == Method::Predictive;
         let simulated = self.batch.run(|env| {
             env.data.restore(state).map_err(|error| wrong(error.to_string()))?;
             let Sample { plan, cost: sum } = env.payload;
             *sum = 0.0;
             for k in 0..steps {
-                interpolate(plan, knots, k as f64 / steps as f64, &mut env.data.state.ctrl[..bounds.len()]);
+                interpolate(plan, knots, k as f64 / steps as f64, &mut env.data.state.ctrl[..env.model.nu]);
                 let more = step(env.model, env.data).map_or(f64::INFINITY, |()| cost(env.model, env.data));
                 if more < 0.0 {
                     return Err(wrong(format!("a state costs {more}; costs are not negative")));
@@ -158,90 +111,17 @@ impl Sampler {
             Ok::<_, NoSolution>(())
         });
         simulated.map_err(|mut failed| failed.failures.swap_remove(0).error)?;
-        self.choose()
+        self.proposals.choose(self.batch.payloads())
     }
 
     /// Writes the controls of the plan, `time` time steps after its beginning.
     pub fn controls(&self, time: f64, out: &mut [f64]) {
-        interpolate(&self.plan, self.settings.knots, time / self.settings.steps as f64, out);
+        self.proposals.controls(time / self.settings.steps as f64, out);
     }
 
     /// Moves the beginning of the plan by time steps; its end stays what it was.
     pub fn shift(&mut self, steps: usize) {
-        let (knots, nu) = (self.settings.knots, self.bounds.len());
-        let mut shifted = self.plan.clone();
-        for (knot, values) in shifted.chunks_exact_mut(nu).enumerate() {
-            let share = knot as f64 / (knots - 1) as f64 + steps as f64 / self.settings.steps as f64;
-            interpolate(&self.plan, knots, share, values);
-        }
-        self.plan = shifted;
-        if matches!(self.settings.method, Method::CrossEntropy { .. }) {
-            self.deviation = self.widest();
-        }
-    }
-
-    /// Draws the samples, in order: the plan itself, then the plan with noise.
-    fn draw(&mut self) {
-        let Sampler { plan, deviation, noise, bounds, .. } = self;
-        for (index, sample) in self.batch.payloads_mut().iter_mut().enumerate() {
-            sample.plan.clone_from(plan);
-            if index > 0 {
-                for (place, value) in sample.plan.iter_mut().enumerate() {
-                    let [low, high] = bounds[place % bounds.len()];
-                    *value = (*value + deviation[place] * noise.standard_normal()).clamp(low, high);
-                }
-            }
-        }
-    }
-
-    /// Moves the plan, and returns the least cost.
-    fn choose(&mut self) -> Result<f64, NoSolution> {
-        let samples = self.batch.payloads();
-        let mut order: Vec<usize> = (0..samples.len()).collect();
-        // Stable: of equal costs the first sample comes first.
-        order.sort_by(|&a, &b| samples[a].cost.total_cmp(&samples[b].cost));
-        let least = samples[order[0]].cost;
-        if !least.is_finite() {
-            return Err(wrong("physics refuses every sample".into()));
-        }
-        let mean = |weights: &[(usize, f64)], value: &dyn Fn(usize) -> f64| {
-            let sum: f64 = weights.iter().map(|(_, weight)| weight).sum();
-            weights.iter().map(|&(sample, weight)| weight * value(sample)).sum::<f64>() / sum
-        };
-        let weights: Vec<(usize, f64)> = match self.settings.method {
-            Method::Predictive => vec![(order[0], 1.0)],
-            Method::CrossEntropy { elites } => order[..elites].iter().map(|&sample| (sample, 1.0)).collect(),
-            Method::PathIntegral { temperature } => {
-                let weight = |cost: f64| physics::math::ops::exp(-(cost - least) / temperature);
-                samples.iter().enumerate().map(|(k, sample)| (k, weight(sample.cost))).collect()
-            }
-        };
-        let moved: Vec<f64> =
-            (0..self.plan.len()).map(|place| mean(&weights, &|sample| samples[sample].plan[place])).collect();
-        if matches!(self.settings.method, Method::CrossEntropy { .. }) {
-            let widest = self.widest();
-            for (place, deviation) in self.deviation.iter_mut().enumerate() {
-                let square = mean(&weights, &|sample| (samples[sample].plan[place] - moved[place]).powi(2));
-                *deviation = square.sqrt().max(LEAST * widest[place]);
-            }
-        }
-        self.plan = moved;
-        Ok(least)
-    }
-}
-
-fn wrong(message: String) -> NoSolution {
-    NoSolution::new("sampling", message)
-}
-
-/// Writes the controls of a plan at a share of its length; before its beginning and after its end it stays what it is there.
-fn interpolate(plan: &[f64], knots: usize, share: f64, out: &mut [f64]) {
-    let (nu, place) = (out.len(), share.clamp(0.0, 1.0) * (knots - 1) as f64);
-    let knot = (place as usize).min(knots - 2);
-    let between = place - knot as f64;
-    for (k, value) in out.iter_mut().enumerate() {
-        let [a, b] = [plan[knot * nu + k], plan[(knot + 1) * nu + k]];
-        *value = a + between * (b - a);
+        self.proposals.shift(steps as f64 / self.settings.steps as f64);
     }
 }
 
@@ -319,7 +199,11 @@ mod tests {
                 data.state.qvel[0].abs()
             };
             let least = sampler.improve(&state, counted).unwrap();
-            (sampler.plan, least, asked.into_inner())
+            let mut plan = [0.0; 200];
+            plan.iter_mut()
+                .enumerate()
+                .for_each(|(k, control)| sampler.controls(k as f64, std::slice::from_mut(control)));
+            (plan, least, asked.into_inner())
         };
         // One elite is the best sample, too, but all samples are simulated to their ends.
         let (plan, least, all) = improved(Method::CrossEntropy { elites: 1 });

@@ -9,6 +9,7 @@ mod joints;
 pub mod locomotion;
 pub mod multi_agent;
 pub mod muscles;
+pub mod planner;
 pub mod pose;
 mod roles;
 pub mod tabletop;

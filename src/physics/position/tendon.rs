@@ -148,8 +148,8 @@ struct Row<'a> {
 impl Row<'_> {
     /// Adds the rate of change of the distance between two points, times `scale`; returns the distance. The
     /// columns hold the chains of both bodies, so one walk down meets both.
-    // A call passes the points through memory, where they are stored by halves and read whole, which stalls: a step of a muscle arm takes 5 to
-    // 23 % longer then.
+    // A call passes the points through memory, where they are stored by halves and read whole, which stalls: a step of the muscle models
+    // takes 5 to 30 % longer then.
     #[inline(always)]
     fn add_segment(&mut self, m: &Model, com: &Com, from: Anchor, to: Anchor, scale: f64) -> f64 {
         let span = sub(to.1, from.1);

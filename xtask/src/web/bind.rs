@@ -12,6 +12,7 @@ pub fn bind(module: &Path, name: &str, folder: &Path) -> Result<(), String> {
     bindgen.remove_name_section(true).remove_producers_section(true);
     let made = bindgen.web(true).and_then(Bindgen::generate_output);
     let mut output = made.map_err(|error| format!("{error:#}"))?;
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     write(&folder.join(format!("{name}.js")), &factory(output.js())?)?;
     write(&folder.join(format!("{name}.d.ts")), &types(output.ts().unwrap_or_default())?)?;
     let path = folder.join(format!("{name}_bg.wasm"));
