@@ -27,7 +27,7 @@ use crate::tasks::deformable::rope_thread::RopeThread;
 use crate::tasks::deformable::rope_wrap::RopeWrap;
 use crate::tasks::deformable::sponge_press::SpongePress;
 use crate::tasks::deformable::sponge_wipe::SpongeWipe;
-use crate::tasks::planner::Planner;
+use crate::tasks::planner::{self, Planner};
 use crate::tasks::tabletop::drawer::Drawer;
 use crate::tasks::tabletop::insert::Insert;
 use crate::tasks::tabletop::stack::Stack;
@@ -379,11 +379,18 @@ const ALL: &[Entry] = &[
         build: |env| Ok(Box::new(tasks::locomotion::walk::Walk::new(env)?)),
     },
     Entry {
+        name: "push",
+        summary: "as planner, with plans that look less far ahead and are less wild",
+        serves: &["push"],
+        feet: None,
+        build: |env| Ok(Box::new(Planner::new(env, planner::GENTLE))),
+    },
+    Entry {
         name: PLANNER,
         summary: "predictive sampling over copies of the environment, by its dense reward; plays any environment",
-        serves: &["kitchen", "appliance", "push"],
+        serves: &["kitchen", "appliance"],
         feet: None,
-        build: |env| Ok(Box::new(Planner::new(env))),
+        build: |env| Ok(Box::new(Planner::new(env, planner::WIDE))),
     },
 ];
 

@@ -184,3 +184,48 @@ pub fn interpolate(plan: &[f64], knots: usize, share: f64, out: &mut [f64]) {
 pub fn wrong(message: impl Into<String>) -> NoSolution {
     NoSolution::new("sampling", message.into())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_multiply_the_noise_in_turn_and_stay_within_bounds() {
+        let bounds = vec![[-1.0, 1.0], [2.0, 6.0]];
+        let mut proposals =
+            Proposals::new(bounds.clone(), Method::Predictive, 3, 0.5, 7).unwrap().with_scales(&[8.0, 0.0]);
+        let mut samples = vec![Sample::default(); 6];
+        proposals.draw(samples.iter_mut());
+        let rest = [0.0, 2.0].repeat(3);
+        for (index, sample) in samples.iter().enumerate() {
+            assert_eq!(sample.plan == rest, index == 0 || index % 2 == 1, "{index}");
+            let within =
+                |(place, value): (usize, &f64)| (bounds[place % 2][0]..=bounds[place % 2][1]).contains(value);
+            assert!(sample.plan.iter().enumerate().all(within));
+        }
+        // At eight times half of the range most numbers are at an end of it.
+        let ends = samples[2].plan.iter().filter(|value| [-1.0, 1.0, 2.0, 6.0].contains(value)).count();
+        assert!(ends >= 3, "{:?}", samples[2].plan);
+    }
+
+    #[test]
+    fn the_best_sample_becomes_the_plan_and_moves_on() {
+        let mut proposals = Proposals::new(vec![[-1.0, 1.0]], Method::Predictive, 2, 0.5, 7).unwrap();
+        let sample = |plan: [f64; 2], cost| Sample { plan: plan.to_vec(), cost };
+        let samples = [sample([0.0, 0.0], 3.0), sample([0.5, -0.5], -2.0), sample([1.0, 1.0], f64::INFINITY)];
+        assert_eq!(proposals.choose(&samples).unwrap(), -2.0);
+        let at = |proposals: &Proposals, share| {
+            let mut control = [0.0];
+            proposals.controls(share, &mut control);
+            control[0]
+        };
+        assert_eq!([at(&proposals, 0.0), at(&proposals, 0.25), at(&proposals, 1.0)], [0.5, 0.25, -0.5]);
+        proposals.shift(0.5);
+        assert_eq!([at(&proposals, 0.0), at(&proposals, 1.0)], [0.0, -0.5]);
+        let refused = [sample([0.0, 0.0], f64::INFINITY)];
+        assert_eq!(
+            proposals.choose(&refused).unwrap_err().to_string(),
+            "sampling: physics refuses every sample"
+        );
+    }
+}

@@ -9,21 +9,32 @@ use env::Env;
 
 /// Plans that are played for an action.
 const SAMPLES: usize = 32;
-/// How far plans look ahead \[s\].
-const HORIZON: f64 = 0.5;
 /// Actions of a plan, between which it is linear.
 const KNOTS: usize = 2;
-/// Deviation of the noise, as a share of half the range of an action.
-const NOISE: f64 = 1.0;
-/// What samples multiply it by, in turn: most look for something else, some make what there is better.
+/// What samples multiply the noise by, in turn: half of them look for something else, half make what there is better.
 const SCALES: [f64; 4] = [1.0, 0.3, 1.0, 0.1];
 /// What a step earns besides its dense reward where the task is solved.
 const SOLVED: f64 = 5.0;
+
+/// How plans are looked for.
+#[derive(Clone, Copy)]
+pub struct Sizes {
+    /// How far plans look ahead \[s\].
+    pub horizon: f64,
+    /// Deviation of the noise, as a share of half the range of an action.
+    pub noise: f64,
+}
+
+/// For any task: most samples go to the ends of ranges.
+pub const WIDE: Sizes = Sizes { horizon: 0.8, noise: 2.0 };
+/// For what has to be moved gently, and would be shoved away by plans that look further ahead.
+pub const GENTLE: Sizes = Sizes { horizon: 0.5, noise: 1.0 };
 
 /// Plays what it finds in a fork of the environment.
 pub struct Planner {
     /// The plan of this episode, and where it is tried.
     search: Option<(Proposals, Env)>,
+    noise: f64,
     /// Steps of a plan.
     steps: usize,
     samples: Vec<Sample>,
@@ -31,16 +42,17 @@ pub struct Planner {
 
 impl Planner {
     /// The controller for any environment.
-    pub fn new(env: &Env) -> Self {
-        let steps = ((HORIZON / env.dt()).round() as usize).max(1);
-        Planner { search: None, steps, samples: vec![Sample::default(); SAMPLES] }
+    pub fn new(env: &Env, Sizes { horizon, noise }: Sizes) -> Self {
+        let steps = ((horizon / env.dt()).round() as usize).max(1);
+        Planner { search: None, noise, steps, samples: vec![Sample::default(); SAMPLES] }
     }
 }
 
 impl Controller for Planner {
     fn reset(&mut self, env: &Env, seed: u64) -> Result<(), ControlError> {
         let bounds = (0..env.action_len()).map(|k| env.action_bounds(k)).collect();
-        let proposals = Proposals::new(bounds, Method::Predictive, KNOTS, NOISE, seed)?.with_scales(&SCALES);
+        let proposals =
+            Proposals::new(bounds, Method::Predictive, KNOTS, self.noise, seed)?.with_scales(&SCALES);
         self.search = Some((proposals, env.fork()?));
         Ok(())
     }

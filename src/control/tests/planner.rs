@@ -31,7 +31,7 @@ fn play(env: &mut Env, controller: &mut dyn Controller, seed: u64, most: usize) 
 #[test]
 fn a_box_is_pushed_by_the_reward_alone() {
     let mut env = environment(PUSH);
-    let mut planner = make("planner", &env).unwrap();
+    let mut planner = make("push", &env).unwrap();
     let (_, solved) = play(&mut env, &mut *planner, 0, usize::MAX);
     assert!(solved > 5, "{solved}");
 }
