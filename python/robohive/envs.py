@@ -522,16 +522,20 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
         """What solves this task without learning.
 
         Args:
-            name: One of `robohive.control.controllers(env.id)`; the best of them without it.
+            name: One of `robohive.control.controllers(env.id)`, the best of them without it; or `"planner"`, which plays any task by
+                its reward.
 
         Raises:
-            ValueError: there is no such controller, it serves other tasks, or none serves this id.
+            ValueError: there is no such controller, it serves other tasks, or none is made for this id.
         """
         id = str(self._about["id"])
         if name is None:
             serving = controllers(id)
             if not serving:
-                raise ValueError(f"no controller serves {id}; robohive.control.controllers() lists all")
+                raise ValueError(
+                    f'no controller is made for {id}; controller("planner") plans by its reward, and '
+                    "robohive.control.controllers() lists all"
+                )
             name, _ = serving[0]
         return Controller(self, name)
 

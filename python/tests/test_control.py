@@ -41,6 +41,21 @@ def test_a_controller_is_a_policy_that_notices_new_episodes():
     assert not np.array_equal(paths[0]["actions"][0], paths[1]["actions"][0])
 
 
+def test_the_planner_plays_what_no_controller_is_made_for():
+    env = robohive.make("hive/QuadrupedWalk-v0")
+    assert controllers(env.id) == []
+    planner = env.controller("planner")
+
+    def acted(seed):
+        env.reset(seed=1)
+        planner.reset(seed=seed)
+        return planner.act()
+
+    first, other = acted(3), acted(4)
+    assert env.action_space.contains(first) and not np.array_equal(first, other)
+    np.testing.assert_array_equal(acted(3), first)
+
+
 def test_lists_name_what_serves_an_id():
     assert [name for name, _ in controllers("hive/SpotTurn-v0")] == ["trot"]
     assert [name for name, _ in controllers("hive/AtlasTurn-v0")] == ["walk"]
